@@ -13,8 +13,7 @@
 
 namespace lamina::view {
 
-// Makes the texture. Its interpolation has no effect if a pixel of the picture covers one of the
-// screen.
+// GL_LINEAR has no effect if each pixel of the picture covers one pixel of the screen.
 PictureTexture::PictureTexture(const GladGLContext& gl) : gl_(gl) {
     gl_.GenTextures(1, &name_);
     gl_.BindTexture(GL_TEXTURE_2D, name_);
@@ -105,8 +104,7 @@ void ComparisonView::draw(Comparison& comparison, const PictureArea& area, const
     }
 }
 
-// Draws the wipe. Its line is an ImGui window of its own, so that dragging it does not move the
-// camera.
+// Draws the wipe. Its line is an ImGui window, so that dragging the line moves no camera.
 void ComparisonView::draw_wipe(Comparison& comparison, const std::string& a, const std::string& b) {
     const float width = max_.x - min_.x;
     const auto share = static_cast<float>(comparison.wipe);

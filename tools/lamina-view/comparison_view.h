@@ -32,13 +32,12 @@ class PictureTexture {
     int width_ = 0, height_ = 0;
 };
 
-// Draws two pictures for comparison in the picture's place in the window.
+// Draws the comparison of two pictures in the picture's area of the window.
 class ComparisonView {
   public:
     explicit ComparisonView(const GladGLContext& gl);
 
-    // Draws over the picture in `area` if a comparison is active. `a`, `b`: names of the two
-    // pictures.
+    // Draws an active comparison over the picture in `area`. `a`, `b`: names of its pictures.
     void draw(Comparison& comparison, const PictureArea& area, const std::string& a,
               const std::string& b);
 

@@ -13,9 +13,9 @@ class Measurements {
   public:
     Measurements() { start(); }
     void start();
-    // From input to the picture on screen.
+    // Adds the time from an input to its picture on screen.
     void add_latency(double ms) { latencies_.push_back(ms); }
-    // From the begin of a frame until it is shown.
+    // Adds the time from the begin of a frame until it is shown.
     void add_frame(double ms) { frames_.push_back(ms); }
     // Returns one line of JSON with the times and the picture's known error.
     std::string text(const std::string& name, const Shown& shown) const;

@@ -37,10 +37,10 @@ class ScriptPlayer {
   public:
     ScriptPlayer(std::vector<ScriptCommand> commands, Window& window, Viewer& viewer);
 
-    // Carries out commands before a frame. Throws Error if a command is impossible, or after an
-    // error in the window.
+    // Does the next action of the script before a frame. Throws Error if a command is impossible or
+    // if waiting for the viewer ends with an error.
     void advance(double seconds);
-    // Returns when advance() must be called next; nothing: after the next event.
+    // Returns the time at which advance() must be called next; empty: after the next event.
     std::optional<double> next(double seconds) const;
     bool done() const { return next_ == commands_.size() && actions_.empty() && !waiting_; }
     Measurements& measurements() { return measurements_; }
@@ -59,11 +59,11 @@ class ScriptPlayer {
     std::vector<ScriptCommand> commands_;
     Window& window_;
     Viewer& viewer_;
-    std::size_t next_ = 0;
+    std::size_t next_ = 0;                       // index of the next command
     std::deque<std::function<void()>> actions_;  // of the current command
-    Waiting waiting_;
+    Waiting waiting_;      // condition of `wait` or of a pause in a drag; null: none
     bool looked_ = false;  // the condition was tested once
-    double until_ = 0;     // next time to look for a file
+    double until_ = 0;     // time (s) of the next test; 0: after the next event
     Measurements measurements_;
 };
 

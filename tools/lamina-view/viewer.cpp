@@ -15,9 +15,9 @@
 
 namespace lamina::view {
 namespace {
-// In heights of the font.
+// Sizes of the panels and of the status line, in heights of the font.
 constexpr float side_width = 25, bottom_height = 19, status_height = 1.8f;
-// Time in seconds after which the picture is drawn in full if a drag pauses.
+// If a drag pauses for so many seconds, the picture is drawn in full.
 constexpr double still_seconds = .3;
 constexpr int key_f1 = 290;
 
@@ -302,8 +302,7 @@ void Viewer::frame(float width, float height, float pixels, double seconds) {
 
 void Viewer::draw_picture(float left, float top, float width, float height, float pixels) {
     if (!uploaded_) return;
-    // A pixel of the picture is a pixel of the screen, unless the picture is coarse or does not
-    // fit.
+    // Pixels of the picture are pixels of the screen unless it is coarse or does not fit.
     const Scene& scene = document_.scene();
     const bool coarse = shown_->kind == PictureKind::moving || shown_->kind == PictureKind::none;
     const auto across = static_cast<float>(coarse ? scene.width : texture_.width());
@@ -327,7 +326,6 @@ void Viewer::draw_comparison() {
     comparison_view_.draw(comparison, area_, "A: " + a, "B: " + short_text(*shown_->resolved));
 }
 
-// Finds the value under the pointer, unless the picture moves: the value would belong to another
 // Finds the value under the pointer, unless the picture moves: it would then be the value of
 // another place when it is read.
 void Viewer::find_value() {

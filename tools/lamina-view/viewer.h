@@ -45,7 +45,7 @@ class Viewer {
     // Declares the window's contents to ImGui. `width`, `height`: of the window, in ImGui's units;
     // `pixels`: screen pixels per unit; `seconds`: the time.
     void frame(float width, float height, float pixels, double seconds);
-    // Returns when a frame is needed even without input.
+    // Returns the time at which a frame is needed even without input; empty if none is.
     std::optional<double> next_frame() const;
     std::string title() const;
     bool is_closing() const { return closing_; }
@@ -96,19 +96,19 @@ class Viewer {
     CameraControl control_;
     PictureArea area_;
     glm::dvec2 pointer_{-1};
-    std::optional<SeenPoint> seen_;  // under the pointer
+    std::optional<SeenPoint> seen_;  // visible point of the data under the pointer
 
     std::shared_ptr<const Shown> shown_;
     std::shared_ptr<const ScreenPicture> uploaded_;
     DrawRequest requested_;  // last request, without its scene
     std::uint64_t requests_ = 0;
-    // First input that is not requested yet.
+    // Time of the first input since the last request.
     std::optional<DrawRequest::Clock::time_point> input_at_;
     std::uint64_t opened_ = 0;  // Revisions::data of the last file that could be opened
-    bool wants_size_ = false;
-    glm::vec2 beside_{0};  // size of the window beside the picture
-    float pixels_ = 1;
-    double changed_at_ = 0;                       // time of the last change during a drag
+    bool wants_size_ = false;   // take_wanted_size() will return a size
+    glm::vec2 beside_{0};       // size of the window minus that of the picture, in ImGui's units
+    float pixels_ = 1;          // screen pixels per unit of ImGui
+    double changed_at_ = 0;     // time of the last change during a drag
     std::vector<std::filesystem::path> waiting_;  // files to save once the picture is full
     std::string message_;                         // last error or result
     bool bad_ = false;                            // message_ is an error

@@ -22,8 +22,8 @@ namespace lamina::view {
 namespace {
 
 constexpr int first_width = 1280, first_height = 860;
-// Seconds between looks for news while another thread works: GLFW 3.3 on X11 loses some of the
-// events by which the thread wakes it.
+// Seconds after which news_ is tested again while another thread works: GLFW 3.3 on X11 loses some
+// of the events by which the thread wakes it.
 constexpr double busy_pause = .02;
 
 std::string glfw_message() {
@@ -68,7 +68,7 @@ Window::Window(const WindowOptions& options) : window_(make_window()) {
     set_theme(std::max(scale, 1.f));
     ImGui_ImplGlfw_InitForOpenGL(window_, false);
     ImGui_ImplOpenGL3_Init("#version 330 core");
-    // With a script no settings are read, so that it does the same for every user.
+    // If a script plays, no settings are read: a script does the same for every user.
     viewer_ = std::make_unique<Viewer>(
         gl_, options.session,
         [this] {
@@ -215,7 +215,7 @@ void Window::run() {
     }
 }
 
-// Returns when a frame is needed.
+// Waits for events until a frame is needed.
 void Window::wait_for_events() {
     // While the camera moves, the processor is left to the picture.
     if (frames_left_ > 0 && !viewer_->awaits_moving_picture()) {
@@ -293,7 +293,7 @@ void Window::measure(double began) {
     player_->measurements().add_latency(std::chrono::duration<double, std::milli>(since).count());
 }
 
-// OpenGL's first row is the lowest.
+// Writes the window's pixels from top to bottom; OpenGL's first row is the lowest.
 void Window::write_screenshot(int width, int height) {
     std::vector<std::uint8_t> codes(4 * static_cast<std::size_t>(width) *
                                     static_cast<std::size_t>(height));

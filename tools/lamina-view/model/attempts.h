@@ -16,17 +16,17 @@ namespace lamina::view {
 struct Attempt {
     Scene scene;     // as given; drawn again when the user goes back to it
     Scene resolved;  // with everything automatic written out
-    // Number of the combination of camera and size, from 1: errors of one view can be compared.
+    // Number, from 1, of the view (camera and size). Errors of pictures of one view are comparable.
     int view = 0;
     std::optional<double> expected;  // predicted error, in 1/255, if known
-    double share_measured = 0;       // of the pixels, 0 to 1
+    double share_measured = 0;       // share of the pixels with a measured error, 0 to 1
     ErrorNorms error;                // of these pixels, in 1/255
-    double draw_ms = 0;              // of the picture, with choices and set-up
+    double draw_ms = 0;              // time of the picture, with choices and set-up
     double frame_ms = 0;             // part of draw_ms that each further frame takes
 
     // Short texts of settings of `resolved`.
     std::string method;          // "slice"
-    std::string classification;  // of slices; the coloring of tets: "preintegrated, linear"
+    std::string classification;  // for tets: the coloring, "preintegrated, linear"
     std::string target;          // "fixed8"
     std::string tree;            // "32x32"; empty: none
     std::string samples;         // "512"; empty: no slices

@@ -13,18 +13,18 @@
 
 namespace lamina::view {
 
-// Returns a - b for pictures of equal size.
+// Returns largest_difference() for each pixel of two pictures of equal size.
 PictureDifference difference_of(const Image& a, const Image& b);
-// Returns the signed difference of one pixel (red, green, blue and opacity) in the channel in which
-// it is largest.
+// Returns the signed difference a - b of one pixel, in 1/255, in the channel (red, green, blue or
+// opacity) in which it is largest.
 float largest_difference(const float* a, const float* b);
 
-// Returns the largest |e| rounded up to 1, 2 or 5 times a power of ten, as the end of a scale; at
-// least smallest_range.
+// Returns the end of a colour scale, in 1/255: the largest |e|, rounded up to 1, 2 or 5 times a
+// power of ten, but at least smallest_range.
 double fitting_range(const PictureDifference& difference);
 inline constexpr double smallest_range = 1e-4;
 
-// Tells whether pictures of both scenes show the same view, pixel by pixel; false if a camera is
+// Returns true if both scenes have the same camera and picture size; false if a camera is
 // automatic.
 inline bool same_view(const Scene& a, const Scene& b) {
     if (a.camera.is_automatic() || b.camera.is_automatic()) return false;
@@ -58,19 +58,20 @@ class Comparison {
     void next_with();
     const std::shared_ptr<const PinnedPicture>& pinned() const { return pinned_; }
 
-    // Takes the pictures to compare: A, if it was drawn again, and B.
+    // Takes the pictures to compare from `shown`, and measures their difference.
     void follow(const Shown& shown);
     // Returns why nothing can be compared with B; empty if something can.
     const std::string& missing() const { return missing_; }
     bool active() const { return by != CompareBy::nothing && missing_.empty(); }
 
-    // Return the pictures and the difference that follow() found, or null.
+    // Return A, B and their difference, as follow() found them, or null.
     const std::shared_ptr<const ScreenPicture>& other() const { return other_; }
     const std::shared_ptr<const ScreenPicture>& edited() const { return edited_; }
     const std::shared_ptr<const PictureDifference>& difference() const { return difference_; }
-    ErrorNorms norms() const { return norms_; }  // of B minus the other picture
-    double shown_range() const;                  // `range`, or the fitting one
-    // Returns the difference in false colours (lamina::difference_codes); where it is not known, B.
+    ErrorNorms norms() const { return norms_; }  // of B minus A
+    double shown_range() const;                  // `range`, or fitting_range()
+    // Returns the difference in false colours (lamina::difference_codes). Pixels without a known
+    // difference show B.
     std::shared_ptr<const ScreenPicture> colors();
 
   private:

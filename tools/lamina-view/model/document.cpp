@@ -39,13 +39,13 @@ bool same_camera(const Camera& a, const Camera& b) {
            a.fov_y == b.fov_y && a.height == b.height;
 }
 
-// Tells whether a mesh is made from the volume: then its keys name no file.
+// Returns true if the mesh is made from the volume: its keys then name no file.
 bool is_made(const Json& mesh) {
     return mesh.is_object() && !mesh.contains("path");
 }
 
-// Tells whether both scenes draw the same data, so that a session can be kept. `a`, `b`: as
-// returned by settings_of(). A session itself makes a mesh again if its settings change.
+// Returns true if both scenes draw the same data, so that the session can be kept: if settings of a
+// mesh made from the volume change, the session makes it again. `a`, `b`: from settings_of().
 bool same_data(const Json& a, const Json& b) {
     for (const char* key : {"volume", "scalar", "nan"})
         if (setting_at(a, key) != setting_at(b, key)) return false;

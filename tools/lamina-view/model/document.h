@@ -42,7 +42,7 @@ class Document {
     bool is_open() const { return revisions_.data > 0; }
     bool dirty() const { return dirty_; }  // changed since it was opened or saved
 
-    void open(Scene scene);  // replaces the scene, with any data, and clears the history
+    void open(Scene scene);  // replaces the scene and its data, and clears the history
     void set_camera(const Camera& camera);
     void set_transfer_function(const TransferFunction& transfer_function);
     void set_clip(const Clip& clip);
@@ -103,7 +103,7 @@ class Document {
     TransferCurves curves_;  // of scene_; transfer_ may be ahead until transfer_edited()
     Revisions revisions_;
     std::vector<Step> undo_, redo_;  // the next step to undo, or to redo, is at the back
-    std::string open_step_;          // name of the step that changes of that name join; or empty
+    std::string open_step_;          // changes of this name join the last step; empty: none do
     bool dirty_ = false;
 };
 

@@ -16,7 +16,6 @@ std::string factors_text(const Scene& scene);
 // other text.
 Scene with_factors(const Scene& scene, const std::string& text);
 
-// Removes the tree.
 void without_tree(Scene& scene);
 
 }  // namespace lamina::view

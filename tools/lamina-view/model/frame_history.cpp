@@ -48,8 +48,8 @@ const std::vector<std::string>& FrameHistory::stage_names() {
     return names;
 }
 
-// Statistics keep the last time of each stage: a stage was done for this picture if its time
-// differs from the one before. Tables and upload are contained in set_up.
+// Finds the stages that were done for this picture. Statistics keep the last time of each stage, so
+// a stage was done if its time has changed. The time of set_up contains those of tables and upload.
 void FrameHistory::add(const FrameStatistics& statistics, bool moving) {
     std::map<std::string, double> done;
     for (const auto& [stage, ms] : statistics.stages_ms) {

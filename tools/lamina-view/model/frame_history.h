@@ -16,7 +16,7 @@
 
 namespace lamina::view {
 
-// Time of a picture, and of the stages that were done for it, which add up to it.
+// Time of a picture, and times of the stages that were done for it. The latter add up to `ms`.
 struct FrameCost {
     double ms = 0;
     bool moving = false;
@@ -41,8 +41,7 @@ class FrameHistory {
     std::map<std::string, double> last_;  // FrameStatistics::stages_ms
 };
 
-// Errors and times of pictures: of the current one, of earlier ones, and of the one that is
-// compared.
+// Errors and times of pictures: the current one, earlier ones, and the one compared with.
 class PrecisionInSight {
   public:
     Attempts attempts;

@@ -9,12 +9,12 @@
 namespace lamina::view {
 namespace {
 
-constexpr double double_click_seconds = .4, double_click_reach = 5;
-// A step counts as motion for so long, since another may follow.
+constexpr double double_click_seconds = .4, double_click_reach = 5;  // reach: pointer units
+// Time for which the camera counts as moving after a step, because another step may follow.
 constexpr double step_seconds = .2;
-constexpr double zoom_of_wheel = .88;  // factor of the view's height for one step of the wheel
-constexpr double zoom_of_height = 4;   // a drag over the picture's height zooms by e to this
-constexpr double fly_share = .02;      // length of a step, as a share of the data's diagonal
+constexpr double zoom_of_wheel = .88;  // one step of the wheel multiplies the view's height by this
+constexpr double zoom_of_height = 4;   // a drag over the picture's height zooms by e^4
+constexpr double fly_share = .02;      // length of a key's step, as a share of the data's diagonal
 
 double distance_of(const Camera& camera) {
     return glm::length(camera.center - camera.eye);

@@ -29,7 +29,7 @@ struct InputEvent {
     enum class Kind { pointer, press, release, wheel, key, character, drop };
     Kind kind = Kind::pointer;
     double seconds = 0;   // time of the input
-    glm::dvec2 place{0};  // of the pointer in the window; of the wheel: steps to the right and up
+    glm::dvec2 place{0};  // pointer in the window (PictureArea); wheel: steps to the right and up
     PointerButton button = PointerButton::left;
     int key = 0;             // pressed or repeated
     unsigned character = 0;  // Unicode
@@ -52,7 +52,7 @@ struct PictureArea {
     glm::dvec2 pixel(const glm::dvec2& place) const {
         return (place - corner) * (columns / size.x) - glm::dvec2(.5);
     }
-    // Returns the place in heights of the picture, from its middle to the right and up.
+    // Returns the place from the picture's middle, right and up, in heights of the picture.
     glm::dvec2 share(const glm::dvec2& place) const {
         const glm::dvec2 from_middle = place - corner - .5 * size;
         return {from_middle.x / size.y, -from_middle.y / size.y};
@@ -63,12 +63,10 @@ struct PictureArea {
 // Moves the camera by pointer and keys.
 class CameraControl {
   public:
-    // Surroundings of the camera: the picture's area, the data, and a probe (null without a
-    // picture).
     struct Around {
         PictureArea area;
-        Grid::Bounds bounds;  // of the data
-        const PointProbe* probe = nullptr;
+        Grid::Bounds bounds;                // of the data, in world units
+        const PointProbe* probe = nullptr;  // of the picture; null without one
     };
 
     // Returns true if the event moved the camera or began or ended a drag. Does nothing while the
@@ -76,7 +74,7 @@ class CameraControl {
     bool handle(const InputEvent& event, const Around& around, Document& document);
     // Returns true while the camera is dragged, and for a moment after each step.
     bool moving(double seconds) const { return dragging_ || seconds < steps_until_; }
-    std::optional<double> rest_at() const;  // when the last step is over
+    std::optional<double> rest_at() const;  // time (s) at which the last step is over
 
     void set_projection(Document& document, Projection projection) const;
     void fit(const Around& around, Document& document) const;
@@ -98,9 +96,8 @@ class CameraControl {
     double pressed_at_ = -1, steps_until_ = 0;
 };
 
-// Motions of the camera. Each function takes a camera and returns the next one. Places in the
-// picture are in heights of the picture from its middle, to the right and up, so that they do not
-// depend on its pixels.
+// Motions of the camera. Each function takes a camera and returns the next one. Drags and places
+// are in units of PictureArea::share(), so that they do not depend on the picture's pixels.
 
 // Axes of the picture in the world: right, up, and away from the eye. They are orthonormal.
 struct ViewAxes {

@@ -9,20 +9,28 @@
 
 namespace lamina::view {
 namespace {
-// Optical depths over a length: of opacity 1, and the largest beside a slope.
+// Finds the slopes in the knots of a scene file, which replaces a slope by pieces of linear
+// extinction (docs/scene.md, "Opacity"). with_slopes() tests, from each knot on:
+// 1. A slope from or to opacity 1 has a step, and its dense side has the extinction 1e7 / length:
+//    this gives the length, and the knots must be those that inside_slope() makes.
+// 2. Otherwise all smooth knots that follow must be near the slope over unit_length or, if they
+//    are not, over the length of best fit, rounded to as few digits as possible.
+// Knots that are on no slope become points of linear extinction.
+
+// Optical depths over the length: that of opacity 1, and the largest that pieces of a slope have.
 constexpr double opaque_depth = 1e7, steepest_depth = 17;
-// Largest relative distance of fitted points from the curve. Pieces are within 7.8e-4 of it
-// (docs/scene.md, "Opacity"); the fitted curve may be off by as much again.
+// Largest relative distance of knots from a fitted slope. Pieces are within 7.8e-4 of their slope
+// (docs/scene.md, "Opacity"); the fitted slope may be off by as much again.
 constexpr double pieces_tolerance = 2 * 7.8e-4;
 
-// Returns the extinction on a slope of opacity from a to b, at `share` of the distance.
+// Returns the extinction on a slope from a (`share` 0) to b (`share` 1).
 double on_slope(const ExtinctionKnot& a, const ExtinctionKnot& b, double share, double length) {
     const double opacity =
         (1 - share) * opacity_of(a.extinction, length) + share * opacity_of(b.extinction, length);
     return extinction_of(opacity, length);
 }
 
-// Returns the largest relative distance of the points inside from the slope.
+// Returns the largest relative distance in extinction of the knots `inside` from the slope.
 double misfit(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside,
               const ExtinctionKnot& b, double length) {
     double worst = 0;
@@ -35,7 +43,7 @@ double misfit(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside,
 }
 
 // Returns the length that fits best, by golden section over its logarithm. The longer the length,
-// the more the slope sags between its ends.
+// the more the extinction of the slope sags between its ends.
 double best_length(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside,
                    const ExtinctionKnot& b) {
     constexpr double golden = .6180339887498949;
@@ -62,7 +70,7 @@ double best_length(const ExtinctionKnot& a, std::span<const ExtinctionKnot> insi
     return std::exp((from + to) / 2);
 }
 
-// Returns the length for which the points follow a slope of opacity, or 0 if there is none.
+// Returns the length for which the knots from a to b follow a slope, or 0 if there is none.
 double length_of(const ExtinctionKnot& a, std::span<const ExtinctionKnot> inside,
                  const ExtinctionKnot& b, double unit_length) {
     if (a.extinction == b.extinction || !(a.value < b.value)) return 0;
@@ -97,12 +105,12 @@ bool is_slope(std::span<const ExtinctionKnot> knots, std::size_t a, std::size_t 
 }
 
 struct FoundSlope {
-    std::size_t end = 0;
+    std::size_t end = 0;  // index of its last knot
     double length = 0;
 };
 
-// Finds a slope from or to opacity 1. Beside opacity 1 the pieces are not smooth, and a step leads
-// to it. The extinction of opacity 1 gives the length.
+// Finds a slope that begins at `first` and has opacity 1 at one end. A step leads to opacity 1, and
+// the pieces beside the step are not smooth. The extinction of opacity 1 gives the length.
 std::optional<FoundSlope> opaque_slope(std::span<const ExtinctionKnot> knots, std::size_t first) {
     const std::size_t count = knots.size();
     const auto steps = [&](std::size_t i) {
@@ -142,7 +150,7 @@ std::vector<ExtinctionKnot> inside_slope(const DensityPoint& a, const DensityPoi
         {{a.value, glm::dvec3(1), opacity_of(a.extinction, length)},
          {b.value, glm::dvec3(1), opacity_of(b.extinction, length)}},
         length);
-    // Beside a slope, extinction ends at the steepest depth; a denser end is reached by a step.
+    // The pieces of a slope end at the steepest depth; a step leads to an end that is denser.
     constexpr double rounding = 1 + 1e-12;
     const auto denser = [&](double extinction) {
         return extinction * length > steepest_depth * rounding;

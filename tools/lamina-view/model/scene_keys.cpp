@@ -15,8 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Reads nodes from the schema. Throws std::logic_error for anything that the schema did not have so
-// far: a new kind of key needs a control of its own.
+// Reads nodes from the schema. Throws std::logic_error for a type that it does not know, which
+// would need a new kind of control.
 class SchemaReader {
   public:
     explicit SchemaReader(const Json& schema) : schema_(schema) {}
@@ -132,7 +132,7 @@ class SchemaReader {
         }
     }
 
-    // Tells whether the alternatives are a list of factors, one factor, or a text.
+    // Returns true if the alternatives are a tree's factors: a list, one factor, or a text.
     static bool is_factors(const std::vector<Json>& alternatives) {
         return std::ranges::any_of(alternatives, [](const Json& one) {
             return one.value("$ref", "") == "#/$defs/factor";
@@ -188,9 +188,8 @@ std::string for_tree(const TreeSettings* tree, const Auto<Target>& target, std::
     return {};
 }
 
-// Returns in which scenes dithering of slabs has an effect, if it has none in this one: only slabs
-// that are rounded to codes are dithered (docs/scene.md, "How it is drawn"). Empty if it has an
-// effect.
+// Returns why dithering of slabs has no effect, or an empty text: only slabs that are rounded to
+// codes are dithered (docs/scene.md, "How it is drawn").
 std::string for_slice_dither(const Scene& scene) {
     const TreeSettings* const tree = given_tree(scene.slice.tree);
     if (scene.target.is_given() && !is_fixed_point(*scene.target))
@@ -278,7 +277,8 @@ void set_at(Json& settings, const std::string& path, const Json& value) {
     }
 }
 
-// Converts the scene's colours, so that it looks the same, up to mixtures of colours.
+// Converts the colours of background and lights from the space `from` to the scene's new space. The
+// scene then looks the same, except that mixtures of colours differ.
 void convert_colors(Scene& scene, ImageColorSpace from) {
     const ImageColorSpace to = scene.color_space;
     scene.background = converted_color(scene.background, from, to);
@@ -287,8 +287,8 @@ void convert_colors(Scene& scene, ImageColorSpace from) {
         light.color = converted_color(light.color, from, to);
 }
 
-// Reads an open colour map once more after the colour space has changed: the numbers of its colours
-// are other ones there. A map is open if it has no range and will be stretched over the data.
+// Reads an open colour map again after the colour space has changed: the numbers of its colours
+// depend on the space. A map is open if it has no range and is to be stretched over the data.
 void read_open_colormap_again(Scene& scene) {
     if (!scene.transfer_function.is_automatic() || !scene.given_transfer) return;
     const Scene read = parse_scene(scene_text(scene), scene.file);

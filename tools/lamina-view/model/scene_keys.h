@@ -18,11 +18,11 @@ namespace lamina::view {
 enum class SettingKind {
     fixed,   // a single value
     flag,    // true or false
-    choice,  // one of several words or numbers
+    choice,  // one of `words`
     whole,   // a whole number
     number,
     text,     // a name or a path
-    factors,  // of a tree
+    factors,  // factors of a tree: a list, a number or a text
     vector,   // several numbers
     color,
     group,  // an object
@@ -47,7 +47,7 @@ struct SettingNode {
     std::size_t count = 0;                      // numbers of a vector; largest size of a list, or 0
     std::size_t least_count = 0;                // smallest size of a list
     nlohmann::ordered_json otherwise;           // value if the key is missing; null: not documented
-    std::vector<nlohmann::ordered_json> words;  // of a choice
+    std::vector<nlohmann::ordered_json> words;  // possible values of a choice
     std::vector<SettingNode> parts;  // keys of a group, element of a list, or alternatives
 };
 
@@ -57,7 +57,6 @@ std::string_view scene_schema();
 // Returns the group of all keys of scene files, read from the schema.
 const SettingNode& scene_keys();
 
-// Returns the paths of all nodes below a node.
 std::vector<std::string> paths_below(const SettingNode& node);
 
 // Returns the node of a path without indices, such as "clip.planes[].point"; it must exist.

@@ -50,7 +50,7 @@ std::pair<Number, Number> sides(const std::vector<Point>& points, double value,
     return {there, there};
 }
 
-// The one or two knots at one value.
+// The one or two knots at one value. If there is one, `below` and `above` are equal.
 struct Site {
     TransferKnot below, above;
 };
@@ -74,9 +74,9 @@ bool near(const glm::dvec3& found, const glm::dvec3& wanted) {
     return near(found.x, wanted.x) && near(found.y, wanted.y) && near(found.z, wanted.z);
 }
 
-// Returns which sites a curve needs: the others lie on lines between them, bit for bit or, if not
-// `exact`, up to rounding. `get` reads the curve's number from a knot; may_go(site) tells whether a
-// site may be left out.
+// Marks the sites that a curve needs: from each one the line to the farthest possible next one, on
+// which all sites between lie, bit for bit if `exact`, else up to rounding. `get` reads the curve's
+// number from a knot; may_go(site) returns true if a site may be left out.
 template <typename Get, typename MayGo>
 std::vector<char> needed_sites(const std::vector<Site>& sites, bool exact, const Get& get,
                                const MayGo& may_go) {
@@ -104,7 +104,7 @@ std::vector<char> needed_sites(const std::vector<Site>& sites, bool exact, const
     return needed;
 }
 
-// Leaves out sites at the ends that repeat their neighbour: outside its points a curve is constant.
+// Leaves out sites at the ends that repeat their neighbour: a curve is constant outside its points.
 template <typename Get, typename MayGo>
 void drop_constant_ends(const std::vector<Site>& sites, std::vector<char>& needed, const Get& get,
                         const MayGo& may_go) {
@@ -251,7 +251,7 @@ std::vector<ExtinctionKnot> knots_of(const std::vector<DensityPoint>& points) {
     std::vector<ExtinctionKnot> knots;
     bool ends_inside = false;
     for (const DensityPoint& point : points) {
-        // A point that is denser than the slopes on both sides has no width: it is left out.
+        // A point denser than the slopes' ends on both sides has no width and is left out.
         const bool before = !knots.empty() && knots.back().value == point.value && ends_inside;
         const bool after = !point.inside.empty() && point.inside.front().value == point.value;
         if (!(before && after)) knots.push_back({point.value, point.extinction, point.smooth});

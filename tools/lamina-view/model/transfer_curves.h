@@ -8,9 +8,9 @@
 
 namespace lamina::view {
 
-// A symmetric-log axis: distances follow differences of numbers below `linear`, and ratios far
-// above it, on both sides of 0. Places along the axis are 0 at `lo` and 1 at `hi`, and continue
-// beyond.
+// A symmetric-log axis: about linear for numbers of magnitude below `linear`, and logarithmic for
+// much larger ones, on both sides of 0. Places along the axis are 0 at `lo` and 1 at `hi`, and
+// continue beyond.
 class SymlogAxis {
   public:
     // Numbers must be finite, with lo < hi and linear > 0.
@@ -36,7 +36,7 @@ class SymlogAxis {
     double lo_, hi_, linear_, from_, width_;
 };
 
-// A point where linear pieces of the extinction curve meet.
+// A point at which linear pieces of the extinction curve meet.
 struct ExtinctionKnot {
     double value = 0;
     double extinction = 0;  // per world unit, >= 0
@@ -48,20 +48,20 @@ struct ExtinctionKnot {
 // A point of the extinction curve, with the curve from it to the next point.
 struct DensityPoint {
     double value = 0;
-    double extinction = 0;
-    bool smooth = false;
+    double extinction = 0;  // per world unit, >= 0
+    bool smooth = false;    // as in TransferKnot
     // If 0, extinction is linear up to the next point. If above 0, opacity over this many world
-    // units is linear, and `inside` has the knots of the pieces that follow it.
+    // units is linear, and `inside` has the knots between the two points that approximate it.
     double opacity_length = 0;
     std::vector<ExtinctionKnot> inside;
 
     bool operator==(const DensityPoint&) const = default;
 };
 
-// A colour between two stops as it was read: the program that wrote it may round otherwise than the
-// interpolation here. It counts as long as both stops stay.
+// The colour of a knot between two stops as it was read. The program that wrote it may have rounded
+// otherwise than the interpolation here. It is used as long as neither stop changes.
 struct KeptColor {
-    ColorPoint before, after;
+    ColorPoint before, after;  // the two stops
     double value = 0;
     glm::dvec3 color{0};
 };
@@ -75,20 +75,20 @@ struct TransferCurves {
     std::vector<DensityPoint> density;  // one or more, in order of value
     std::vector<ColorPoint> colors;     // one or more, in order of value
     std::vector<KeptColor> kept;        // in order of value
-    // The function steps halfway between neighbouring values of both curves (a palette).
+    // True: the function is a palette, which steps halfway between neighbouring values of points.
     bool palette = false;
 
-    // Returns the function of the curves. At values of points it has their own numbers, and
-    // interpolated ones for a curve without a point there. Throws Error if the curves are no
-    // transfer function, or have too many points for a scene file.
+    // Returns the function of the curves. At the value of a point it has the point's own number; a
+    // curve without a point there is interpolated. Throws Error if the curves are no transfer
+    // function, or have too many points for a scene file.
     TransferFunction function() const;
 
     bool operator==(const TransferCurves& other) const;
 };
 
-// Splits a function into curves, with the points that each needs. function() gives it back bit for
-// bit. Successive smooth points that follow a linear opacity become slopes, over `unit_length`
-// world units if that fits.
+// Splits a function into curves, with the points that each needs. function() of the result is the
+// same function bit for bit. Successive smooth knots that follow a linear opacity become slopes,
+// over `unit_length` world units if that fits.
 TransferCurves curves_of(const TransferFunction& function, double unit_length);
 
 // Returns all knots of the extinction curve, in order.
@@ -97,7 +97,7 @@ std::vector<ExtinctionKnot> knots_of(const std::vector<DensityPoint>& points);
 // The limits of a curve from below and from above at a value, which differ at steps.
 struct DensitySides {
     double below = 0, above = 0;
-    bool smooth_below = false, smooth_above = false;  // of knots at the value
+    bool smooth_below = false, smooth_above = false;  // of the knots at the value, if any
 };
 DensitySides density_at(const std::vector<ExtinctionKnot>& knots, double value);
 struct ColorSides {
@@ -107,7 +107,7 @@ ColorSides color_at(const std::vector<ColorPoint>& points, double value);
 
 inline constexpr std::size_t most_points = 4096;  // that a scene file may have
 
-// Return simple extinction curves over values from lo to hi > lo, up to `densest`.
+// Return simple extinction curves over values from lo to hi > lo, with the maximum `densest`.
 std::vector<DensityPoint> ramp_shape(double lo, double hi, double densest);
 // Returns a hat a twentieth of the range wide around `at`, which is moved inside if necessary;
 // 0 elsewhere.

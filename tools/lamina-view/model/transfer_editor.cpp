@@ -14,7 +14,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Values in order, at most two of them equal, of which some move together.
+// Values of a curve's points, in order, with at most two at one value. Some of them (the marked
+// ones) move together, until one meets a wall: the next point that does not move.
 class MovedValues {
   public:
     template <typename Point>
@@ -23,7 +24,7 @@ class MovedValues {
         for (const Point& point : points) values_.push_back(point.value);
     }
 
-    // Returns how far they can move in the direction of `wanted`, at most by `wanted`.
+    // Returns `wanted`, or the shift of this sign at which the first value meets its wall.
     double limited(double wanted) const {
         for (std::size_t i = 0; i < values_.size(); ++i) {
             if (moves_[i] == 0) continue;
@@ -34,7 +35,7 @@ class MovedValues {
     }
 
     // Returns the moved values. Sums round, so a value that reaches a wall is set to it, and the
-    // order is restored afterwards.
+    // order is restored at last.
     std::vector<double> shifted(double by) const {
         std::vector<double> result = values_;
         for (std::size_t i = 0; i < values_.size(); ++i) {
@@ -55,8 +56,8 @@ class MovedValues {
     bool equal(std::size_t a, std::size_t b) const {
         return b < values_.size() && values_[a] == values_[b];
     }
-    // Returns the limit above: the next point that stays. No third point may get the value of two
-    // others.
+    // Returns the wall above: the next value if it stays, else infinity. If moving onto it would
+    // make three equal values, the wall is just below it.
     double wall_above(std::size_t i) const {
         if (i + 1 >= values_.size() || moves_[i + 1] != 0) return infinity;
         const bool crowded =
@@ -93,7 +94,7 @@ double moved_extinction(double extinction, double places, const SymlogAxis& axis
     return std::max(0., axis.number(place));
 }
 
-// Returns the index for a new point at `value`, behind the points there; nothing if there are two.
+// Returns the index for a new point at `value`, behind points there; empty if there are two.
 template <typename Point>
 std::optional<std::size_t> room_at(const std::vector<Point>& points, double value) {
     const auto [first, end] = std::ranges::equal_range(points, value, {}, &Point::value);
@@ -178,8 +179,7 @@ TransferCurves windowed(const TransferCurves& curves, double factor, double pivo
     return result;
 }
 
-// Opacity that was linear over a length stays linear over the length that has the same optical
-// depths.
+// Divides lengths by `factor`: optical depths over them, and thus slopes of opacity, stay.
 TransferCurves attenuated(const TransferCurves& curves, double factor) {
     constexpr double most = std::numeric_limits<double>::max();
     TransferCurves result = curves;

@@ -25,7 +25,7 @@ struct TransferHandle {
     friend auto operator<=>(const TransferHandle&, const TransferHandle&) = default;
 };
 
-// A shift of points: `values` along the scalar axis, `places` along the extinction axis.
+// A shift of points: by `values` along the scalar axis, by `places` (SymlogAxis) along the other.
 struct TransferShift {
     double values = 0, places = 0;
 };
@@ -35,15 +35,13 @@ struct TransferShift {
 TransferCurves moved(const TransferCurves& curves, const std::set<TransferHandle>& points,
                      const TransferShift& shift, const SymlogAxis& axis);
 
-// Returns the curves with all values stretched by `factor` > 0 around `pivot`, then moved by
-// `shift`.
+// Returns the curves with each value v moved to pivot + (v - pivot) * factor + shift; factor > 0.
 TransferCurves windowed(const TransferCurves& curves, double factor, double pivot, double shift);
 
-// Returns the curves with all extinctions multiplied by `factor` > 0, limited to the largest
-// double.
+// Returns the curves with all extinctions multiplied by `factor` > 0, at most the largest double.
 TransferCurves attenuated(const TransferCurves& curves, double factor);
 
-// Computes again the knots of the slope from a point to the next one.
+// Recomputes the knots (DensityPoint::inside) of the slope from a point to the next one.
 void follow_slope(std::vector<DensityPoint>& points, std::size_t index);
 
 // Edits a transfer function, which is valid at any time: a change that would make it invalid, or
@@ -61,8 +59,7 @@ class TransferEditor {
     double unit_length() const { return unit_length_; }
     void set_unit_length(double length);
 
-    // Take another function, or an earlier state. The selection is dropped if its points do not
-    // exist there.
+    // Take another function, or an earlier state. Points that do not exist in it are deselected.
     void take(const TransferFunction& function);
     void restore(const TransferCurves& curves);
 
@@ -78,7 +75,8 @@ class TransferEditor {
 
     // True: a colour at the value of a selected point of extinction moves with it.
     bool colors_move_along = true;
-    // Each step of a move is relative to the state at begin_move().
+    // move(), window() and attenuate() change the state that begin_move() has stored, so each call
+    // between begin_move() and end_move() replaces the call before.
     void begin_move();
     bool is_moving() const { return start_.has_value(); }
     bool move(const TransferShift& shift, const SymlogAxis& axis);
@@ -92,9 +90,9 @@ class TransferEditor {
     bool add_color(double value);
     // Adds a second point at the same value.
     bool make_step(const TransferHandle& point);
-    bool remove_selected();  // but not the last point of a curve
+    bool remove_selected();  // keeps one point of each curve
 
-    bool set_value(const TransferHandle& point, double value);  // kept between its neighbours
+    bool set_value(const TransferHandle& point, double value);  // limited by its neighbours
     bool set_extinction(std::size_t index, double extinction);
     bool set_opacity(std::size_t index, double opacity);  // over unit_length()
     bool set_smooth(std::size_t index, bool smooth);
@@ -117,7 +115,7 @@ class TransferEditor {
   private:
     template <typename Change>
     bool change(const Change& apply);
-    bool put(const TransferCurves& curves);
+    bool put(const TransferCurves& curves);  // false if they are invalid
     void follow_around(TransferCurves& curves, std::size_t index) const;
     std::set<TransferHandle> moving_points() const;
 
@@ -125,8 +123,8 @@ class TransferEditor {
     TransferFunction function_;
     double unit_length_ = 1;
     std::set<TransferHandle> selection_;
-    std::optional<TransferCurves> start_;
-    std::set<TransferHandle> moving_;
+    std::optional<TransferCurves> start_;  // the state at begin_move()
+    std::set<TransferHandle> moving_;      // points that move() moves
 };
 
 }  // namespace lamina::view

@@ -17,8 +17,8 @@ namespace lamina::view {
 bool may_be_absent(const SettingNode& node);
 
 // Returns the value that a key gets when it is switched on or stops being automatic: the value in
-// `resolved` (may be null), else its default, else one that can be drawn. `bounds`: of the data, if
-// known. `path` has the indices of list elements.
+// `resolved` (may be null), else its default, else one that can be drawn. `path` is the node's path
+// with indices of list elements. `bounds`: bounds of the data, if known.
 nlohmann::ordered_json starting_value(const SettingNode& node, const std::string& path,
                                       const Scene& scene, const Scene* resolved,
                                       const std::optional<Grid::Bounds>& bounds);
@@ -32,12 +32,11 @@ struct ViewerSettings {
 
     void add_recent(const std::filesystem::path& file);  // keeps at most 10
 
-    // Returns the path lamina/viewer.json in the XDG configuration folder; empty if there is no
-    // home.
+    // Returns lamina/viewer.json in the XDG configuration folder; empty if there is no home.
     static std::filesystem::path file();
     // Returns defaults if the file does not exist. Throws Error if it is invalid.
     static ViewerSettings load(const std::filesystem::path& file);
-    // Writes the file, which gets its name when it is complete. Throws Error.
+    // Writes a temporary file and renames it to `file`. Throws Error if that fails.
     void save(const std::filesystem::path& file) const;
 };
 

@@ -80,7 +80,7 @@ void draw_measured(const Shown& shown, double wanted) {
     ImGui::ProgressBar(share, {-1, 0}, text.c_str());
 }
 
-// Colours of FrameHistory::stage_names(). They differ in lightness, too.
+// Colours of FrameHistory::stage_names(), in that order. They differ in lightness, too.
 constexpr ImU32 stage_colors[] = {IM_COL32(120, 94, 240, 255),  IM_COL32(220, 38, 127, 255),
                                   IM_COL32(178, 102, 210, 255), IM_COL32(254, 97, 0, 255),
                                   IM_COL32(255, 176, 0, 255),   IM_COL32(255, 226, 120, 255),

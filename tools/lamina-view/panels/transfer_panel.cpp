@@ -227,8 +227,7 @@ void TransferPanel::draw_density_slider(Document& document) {
 void TransferPanel::draw_between(Document& document) {
     TransferEditor& editor = document.transfer();
     const TransferCurves& curves = editor.curves();
-    // Pieces of constant extinction, and steps, are equal in both interpolations, so they do not
-    // count.
+    // Constant pieces and steps are equal in both interpolations and do not count.
     const auto count = [&](bool opacity) {
         std::size_t found = 0;
         for (std::size_t i = 0; i + 1 < curves.density.size(); ++i) {

@@ -35,9 +35,9 @@ class TransferPanel : public Panel {
     void apply_map(PanelContext& context, const std::string& name_or_path);
 
     TransferPlot plot_;
-    std::uint64_t fitted_to_ = 0;  // Revisions::data
-    bool counted_ = false;         // there was a histogram then
-    double density_ = 1;           // of the slider, while it is dragged
+    std::uint64_t fitted_to_ = 0;  // Revisions::data when plot_ was fitted
+    bool counted_ = false;         // there was a histogram when plot_ was fitted
+    double density_ = 1;           // factor on the density slider while it is dragged
     bool over_points_ = false;     // true: maps are stretched over the points; false: over the data
     std::string map_file_, map_message_;
 };

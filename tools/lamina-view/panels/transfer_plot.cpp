@@ -11,7 +11,8 @@ namespace {
 
 using Curve = TransferHandle::Curve;
 
-// Returns the largest extinction below that of opacity 1, which is arbitrary: 1e7 / unit_length.
+// Returns the largest extinction that the axis should show. Opacity 1 does not count if anything
+// else does: its extinction, 1e7 / unit_length, is arbitrary. Slopes reach optical depth 17.
 double densest(const TransferEditor& editor) {
     constexpr double opaque_depth = 17.5;
     double most = 0, most_of_all = 0;
@@ -52,8 +53,8 @@ void TransferPlot::fit(const TransferEditor& editor, const ValueHistogram* histo
     fitted_ = true;
 }
 
-// Fits the extinction axis: the linear part begins three decades below its top, or lower, up to
-// six, so that the faintest point is off 0.
+// Fits the extinction axis. Its linear part ends at the faintest point, which is thus drawn off 0,
+// but no less than three and no more than six decades below the top.
 void TransferPlot::fit_extinction(const TransferEditor& editor) {
     const double most = densest(editor);
     const double top = most > 0 ? std::min(3 * most, 1e300) : 1;
@@ -140,7 +141,7 @@ std::string TransferPlot::drag(TransferEditor& editor) {
             editor.move({frame_.values(dx), frame_.places(dy)}, frame_.axis);
             return "move";
         case Drag::window: {
-            // Widening keeps the value in the middle of the plot.
+            // A change of width keeps the middle of the points.
             const auto& points = editor.curves().density;
             const double pivot = (value_lo_at_press_ + value_hi_at_press_) / 2;
             if (points.size() > 0)

@@ -46,9 +46,10 @@ class TransferPlot {
     void draw_all(const TransferEditor& editor, const TransferSurroundings& surroundings) const;
 
     TransferFrame frame_;
-    ImVec2 strip_min_, strip_max_;
+    ImVec2 strip_min_, strip_max_;  // corners of the strip of colours
     Drag drag_ = Drag::none;
     ImVec2 pressed_at_;
+    // Range of values when the drag began: of the plot or, for Drag::window, of the points.
     double value_lo_at_press_ = 0, value_hi_at_press_ = 1;
     bool fitted_ = false;
 };

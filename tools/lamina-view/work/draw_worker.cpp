@@ -40,7 +40,7 @@ double CoarseSize::divisor() const {
 
 namespace {
 
-constexpr auto longest_moving = std::chrono::milliseconds(200);
+constexpr auto longest_moving = std::chrono::milliseconds(200);  // see DrawWorker
 
 }  // namespace
 

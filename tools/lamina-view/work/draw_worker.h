@@ -28,8 +28,8 @@ struct DrawRequest {
     bool moving = false;  // something is being dragged: a coarse picture suffices
     bool coarse = true;   // allows coarse pictures
     bool trace = true;    // at rest, the tracer replaces the picture
-    std::shared_ptr<const PinnedPicture> pinned = {};  // to be drawn in this view, too
-    std::uint64_t number = 0;
+    std::shared_ptr<const PinnedPicture> pinned = {};  // picture A, drawn in this view, too
+    std::uint64_t number = 0;                          // counts requests
     using Clock = std::chrono::steady_clock;
     Clock::time_point asked_at = {};  // time of the input, for measurements
 };
@@ -56,16 +56,16 @@ class CoarseSize {
 
     double expected_ms(std::size_t index) const;
 
-    double target_ms_;
-    std::array<double, size> ms_{};  // 0: unknown
+    double target_ms_;               // time in which a picture should be drawn
+    std::array<double, size> ms_{};  // time of pictures of each divisor; 0: unknown
 };
 
 class SessionSteps;
 
 // Draws in a thread of its own, which owns the session. Only the newest request counts: it stops
-// the work for older ones at once, with two exceptions. While the scene moves, a picture is
-// finished, unless that takes long, although a newer request moves, too; otherwise no picture would
-// ever be finished. And loading data continues unless other data are requested.
+// the work for older ones at once, with two exceptions. If both requests are for moving pictures,
+// the older picture is finished unless it has taken 200 ms already; otherwise steady motion might
+// let no picture be finished. And loading data continues unless other data are requested.
 class DrawWorker {
   public:
     // `wake`: called in the worker's thread, or in its session's, when shown() has changed.
@@ -91,8 +91,8 @@ class DrawWorker {
     std::optional<DrawRequest> newest_;
     bool ending_ = false;
     std::atomic<bool> busy_{false};
-    std::stop_source running_;
-    bool running_moves_ = false;
+    std::stop_source running_;         // stops the present step
+    bool running_moves_ = false;       // the present step draws a moving picture
     std::uint64_t running_loads_ = 0;  // Revisions::data of the data being loaded
     Clock::time_point running_since_ = {};
     std::unique_ptr<SessionSteps> steps_;  // used only by the worker's thread

@@ -13,12 +13,10 @@
 
 namespace lamina::view {
 
-// Returns true if a file of this name can be saved: .json (the scene), or .exr, .png, .npy (the
-// picture).
+// Returns true if the suffix is .json (for the scene), or .exr, .png or .npy (for the picture).
 bool can_save(const std::filesystem::path& file);
 
-// Writes files of the picture that is shown, each in a thread of its own, so that the window does
-// not wait.
+// Writes files of the shown picture, each in a thread of its own: the window does not wait.
 class Saving {
   public:
     struct Result {

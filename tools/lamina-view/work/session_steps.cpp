@@ -18,17 +18,17 @@
 
 namespace lamina::view {
 
-// A full picture that the tracer replaces tile by tile, with the error found so far.
+// A full picture that the tracer replaces tile by tile, with its error in the traced pixels.
 class TracedPicture {
   public:
-    // `full`: null if no picture is to be measured.
+    // `full`: picture whose error is measured, or null. `screen`: pixels shown until traced.
     TracedPicture(std::shared_ptr<const Image> full, std::shared_ptr<const ScreenPicture> screen,
                   const Scene& scene);
 
     void add(const PictureTile& tile, const PreciseImage& truth);
 
-    double share() const;      // share of the pixels that are traced
-    ErrorNorms error() const;  // of these pixels, as error_of() computes it in float32
+    double share() const;      // share of the pixels that are traced, 0 to 1
+    ErrorNorms error() const;  // error in these pixels, as error_of() computes it in float32
     const ScreenPicture& screen() const { return screen_; }
     // Returns the full picture minus the traced pixels; empty if there is no full picture.
     const PictureDifference& missed() const { return missed_; }
@@ -42,7 +42,7 @@ class TracedPicture {
     glm::dvec3 background_;
     ImageColorSpace space_;
     std::int64_t pixels_ = 0;
-    double largest_ = 0, sum_ = 0, squares_ = 0;
+    double largest_ = 0, sum_ = 0, squares_ = 0;  // of errors in 1/255: max |e|, sums of e, e^2
 };
 
 TracedPicture::TracedPicture(std::shared_ptr<const Image> full,
@@ -121,9 +121,9 @@ std::string dotted(std::string pointer) {
 
 using Clock = std::chrono::steady_clock;
 
-// Time for drawing: 50 ms from input to picture, of which the window needs the rest.
+// Target time for drawing a coarse picture: 50 ms from input to screen, minus 15 for the window.
 constexpr double moving_target_ms = 35;
-constexpr double tile_publish_ms = 100;
+constexpr double tile_publish_ms = 100;  // least time between publishing traced tiles
 constexpr int histogram_bins = 512;
 
 double ms_since(Clock::time_point start) {

@@ -21,9 +21,9 @@ std::vector<std::string> automatic_differences(const Scene& before, const Scene&
 
 class TracedPicture;
 
-// Does the work for a request step by step: loads data, then draws. While the scene moves, draws a
-// coarse picture; at rest, chooses automatic keys again, draws the full picture, and traces it.
-// Used by one thread only.
+// Does the work for a request step by step: loads data, then draws. While the scene moves, it draws
+// a coarse picture. At rest, it chooses automatic keys again, draws the full picture, draws the
+// pinned picture in the same view, and traces. Used by one thread only.
 class SessionSteps {
   public:
     SessionSteps(const SessionOptions& options, std::function<void(const Shown&)> publish);
@@ -64,12 +64,12 @@ class SessionSteps {
     DrawRequest request_;
     Next next_ = Next::nothing;
     std::unique_ptr<Session> session_;
-    Revisions applied_;  // revisions that the session has
-    Revisions chosen_;   // revisions that automatic values were chosen for
-    bool full_size_ = true;
+    Revisions applied_;      // revisions that the session has
+    Revisions chosen_;       // revisions that automatic values were chosen for
+    bool full_size_ = true;  // the session has the request's size, not a coarse one
     CoarseSize coarse_size_;
     bool holds_pinned_ = false;  // the session has the scene of A
-    Revisions pinned_failed_;    // request in whose view A cannot be drawn
+    Revisions pinned_failed_;    // of the request in whose view A could not be drawn
     Shown shown_;
 };
 

@@ -38,11 +38,11 @@ struct PinnedPicture {
     std::shared_ptr<const Image> picture;
     std::shared_ptr<const ScreenPicture> screen;
     FrameStatistics statistics;
-    std::optional<double> expected;  // error, in 1/255
+    std::optional<double> expected;  // predicted error, in 1/255, if known
 };
 
-// The signed difference of two pictures, in 1/255: for each pixel, that of the channel in which it
-// is largest; NaN where it is not traced yet. Rows are from the top.
+// The signed difference of two pictures, in 1/255. Each pixel has the difference of the channel in
+// which it is largest, or NaN if the pixel is not traced yet. Rows are from the top.
 struct PictureDifference {
     int width = 0, height = 0;
     std::vector<float> e;
@@ -51,11 +51,11 @@ struct PictureDifference {
 // The pictures to show. Immutable once published, and cheap to copy.
 struct Shown {
     PictureKind kind = PictureKind::none;
-    Revisions revisions;                                  // of the picture's request
-    std::chrono::steady_clock::time_point asked_at = {};  // of that request
+    Revisions revisions;                                  // of the request that `screen` answers
+    std::chrono::steady_clock::time_point asked_at = {};  // DrawRequest::asked_at of that request
     double moving_ms = 0;                                 // time of the last moving picture
     std::shared_ptr<const ScreenPicture> screen;
-    std::optional<PointProbe> probe;    // for the picture: places are pixels of its scene
+    std::optional<PointProbe> probe;    // finds visible points of the data at pixels of `screen`
     std::shared_ptr<const Image> full;  // the last full picture, of `full_revisions`
     std::shared_ptr<const ScreenPicture> full_screen;
     Revisions full_revisions;
@@ -67,10 +67,10 @@ struct Shown {
     // Automatic keys that got another value at rest: "render.slice.samples: 300 -> 320".
     std::vector<std::string> chosen_again;
 
-    double share_traced = 0;                    // of the pixels of `full`, 0 to 1
-    ErrorNorms error;                           // of the traced pixels
-    std::shared_ptr<const PreciseImage> truth;  // once all pixels are traced
-    // The full picture minus the traced one, where it is traced; null if nothing is.
+    double share_traced = 0;                    // share of traced pixels, 0 to 1
+    ErrorNorms error;                           // error of `full` in the traced pixels
+    std::shared_ptr<const PreciseImage> truth;  // the traced picture once it is complete
+    // The full picture minus the traced one; null if no pixel is traced.
     std::shared_ptr<const PictureDifference> missed;
     double trace_error = 0;  // of the traced picture, in 1/255, estimated by the tracer
 
@@ -78,7 +78,7 @@ struct Shown {
     std::shared_ptr<const PinnedPicture> pinned;
 
     std::uint64_t frame = 0;           // counts drawn pictures, moving and full
-    FrameStatistics frame_statistics;  // of the last of these
+    FrameStatistics frame_statistics;  // statistics of the last of these pictures
 
     // Number (Revisions::data) of the data that are loaded; 0: none.
     std::uint64_t loaded = 0;
@@ -89,8 +89,8 @@ struct Shown {
     std::shared_ptr<const Scene> chosen;
     Revisions chosen_of;
 
-    std::string activity;  // what is being done; empty: nothing
-    double share_done = 0;
+    std::string activity;   // what is being done; empty: nothing
+    double share_done = 0;  // share of `activity` that is done, 0 to 1
     std::vector<std::string> warnings;
     // Why the last request has no picture; empty if it has one.
     std::string failure;
