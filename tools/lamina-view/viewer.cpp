@@ -202,7 +202,7 @@ void Viewer::follow_worker() {
 void Viewer::go_back_if_failed() {
     if (shown_->failure.empty() || shown_->failed_request != requested_.number) return;
     if (shown_->loaded == document_.revisions().data) return;
-    // Another file was requested meanwhile.
+    // If another file has been opened since then, its result is awaited.
     if (document_.revisions() != requested_.revisions) return;
     message_ = shown_->failure;
     bad_ = true;

@@ -65,16 +65,16 @@ class Window {
     GLFWwindow* window_ = nullptr;
     GladGLContext gl_{};
     std::unique_ptr<Viewer> viewer_;
-    std::unique_ptr<ScriptPlayer> player_;
+    std::unique_ptr<ScriptPlayer> player_;  // null without a script
     int frames_left_ = 3;            // frames to draw: ImGui shows some effects of input late
     bool touched_ = false;           // something happened to the window
     std::atomic<bool> news_{false};  // the viewer has something new to show
     std::string title_;
     std::filesystem::path screenshot_;
     glm::dvec2 pointer_{-1};
-    // By button; went_down_: down at some time since the last frame.
+    // For each button: it is down; it was down at some time since the last frame.
     std::array<bool, 3> down_{}, went_down_{};
-    std::chrono::steady_clock::time_point measured_ = {};
+    std::chrono::steady_clock::time_point measured_ = {};  // input time of the last latency
 };
 
 }  // namespace lamina::view
