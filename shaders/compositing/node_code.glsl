@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/opacity.glsl"
 
-// How a node of a compositing tree stores its optical depth as a number in [0, 1]
-// (docs/numerics.md, section 4): twin of encode_depth() and decode_depth() of compositing/codes.h
-// for the code NODE_CODE. `share`: the node's share of its ray's samples.
+// Converts the optical depth of a node of a compositing tree to a number in [0, 1] that its image
+// stores, and back (docs/numerics.md, section 4). Twin of encode_depth() and decode_depth() of
+// compositing/codes.h for the code NODE_CODE. `share`: the node's share of its ray's samples.
 #define CODE_MINIMAX 0
 #define CODE_PHI 1
 #define CODE_ALPHA 2

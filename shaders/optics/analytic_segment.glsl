@@ -10,11 +10,11 @@ uniform vec3 single_color;
 // Returns the associated colour and opacity of a segment on which the scalar changes linearly from
 // `front` to `back`, both normalised so that the intervals of the transfer function cover [0, 1];
 // below 0 and above 1 the optics at the two ends hold. Integrates exactly, interval by interval
-// (docs/numerics.md, section 5). TABLE_COLORED: colours from the transfer function, otherwise
-// `single_color`. LIT: adds light_on_piece(), which the including shader must define before it
-// includes analytic_segment.glsl. This is the twin of integrate_segment()
-// (optics/segment_integral.h) in float32. Optical depth is a sum of terms >= 0. Extinction times
-// length is finite for lengths up to 1e8 (executors/transfer_tables.h).
+// (docs/numerics.md, section 5). TABLE_COLORED: colours come from the transfer function; otherwise
+// the colour is `single_color`. LIT: adds light_on_piece(), which the including shader must define
+// before it includes analytic_segment.glsl. This is the twin of integrate_segment()
+// (optics/segment_integral.h) in float32. The optical depth is a sum of terms >= 0, so no digits
+// cancel. Extinction times length is finite for lengths up to 1e8 (executors/transfer_tables.h).
 vec4 integrate_segment(float front, float back, float world_length) {
     int interval = find_interval(clamp(front, 0.0, 1.0));
     int last = find_interval(clamp(back, 0.0, 1.0));

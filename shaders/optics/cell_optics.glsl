@@ -25,9 +25,9 @@ Interval interval_at(int number) {
     return Interval(place.x, ends.y, place.y, ends.x, left, right - left);
 }
 
-// A part of a ray whose scalar stays in one interval. `share` holds the coefficients of its share
-// as a cubic of t, 0 at the part's front and 1 at its back. `extinction` is extinction times the
-// part's length at share 0, and `change` its change from share 0 to share 1.
+// A part of a ray whose scalar stays in one interval. `share` holds the coefficients of the share
+// as a cubic of t, which is 0 at the part's front and 1 at its back. `extinction` is the extinction
+// at share 0 times the part's length; `change` is what this product gains from share 0 to share 1.
 struct LinearPart {
     vec4 share;
     float extinction, change;

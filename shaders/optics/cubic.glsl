@@ -56,8 +56,8 @@ void approach_root(vec4 c, float value, bool rising, inout RootBracket bracket) 
 
 // Returns the t between places.x and places.y at which a cubic has `value`. The cubic is monotone
 // between the two places and has the values values.x and values.y there. Even t^3 = 1e-4 takes no
-// more than six steps. The steps are written out, because software rasterisers limit the iterations
-// of all loops together (plan/choices.h).
+// more than six steps. Seven steps are written out, because software rasterisers limit the
+// iterations of all loops together (plan/choices.h).
 float cubic_root(vec4 c, float value, vec2 places, vec2 values) {
     bool rising = values.y >= values.x;
     float share = clamp((value - values.x) / (values.y - values.x), 0.0, 1.0);

@@ -4,7 +4,7 @@
 // Integrates a segment on which colour and extinction are linear. Opacity has a closed form. Colour
 // needs front_weight(): the weight of the front's colour (optics/segment_integral.h) for extinction
 // * length p at the front and q at the back. It is a polynomial if THIN is defined, else a lookup
-// in a table. TABLE_COLORED: colours from the transfer function, otherwise `single_color`.
+// in a table. TABLE_COLORED: colours come from the transfer function, else from `single_color`.
 #ifdef TABLE_COLORED
 #ifdef THIN
 float front_weight(float p, float q) {

@@ -10,7 +10,7 @@ uniform vec2 light_limits;
 // A lit segment, or the piece of one on which the transfer function is linear.
 struct LitSegment {
     vec2 depths;  // extinction at both ends, times the length
-    vec3 gradient, turn;  // at the front, and from there to the back
+    vec3 gradient, turn;  // gradient at the front, and its change from there to the back
     vec3 to_eye;
 };
 
@@ -62,7 +62,8 @@ LIGHT_COLOR add_node(LitSegment segment, float place, float amount, inout LightS
 }
 
 // Returns the contribution of light to a segment, piece by piece from the front. Pieces end at kinks, and are as short
-// as depth and bend of light demand. `in_front`: transmittance in front of the segment.
+// as depth and bend of light demand. `in_front`: transmittance in front of the segment. Optical depths: `deepest` keeps
+// products finite, and pieces deeper than `shallow` are cut to `goal`.
 LightSums light_along(LitSegment segment, float in_front) {
     const float deepest = 1e12, shallow = 0.75, goal = 0.7;
     LightSums sums = LightSums(LIGHT_COLOR(0.0), LIGHT_COLOR(0.0), LIGHT_COLOR(0.0));

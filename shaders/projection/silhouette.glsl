@@ -3,8 +3,8 @@
 // is linear. It comes from the planes of the faces (projection/tet_record.h). Coverage, too, is decided here, because
 // the polygon covers a little more than the tet, and rasterisers move its corners.
 //
-// CAREFUL: in double precision, for faces seen nearly edge-on, tets at the near plane, and an eye inside the tet.
-// EXACT_SEGMENTS: lengths and scalars, too. CUT: the cell fragment ends at planes of constant scalar.
+// CAREFUL: depths are double, for faces seen nearly edge-on, tets at the near plane, and an eye inside the tet.
+// EXACT_SEGMENTS: so are lengths and scalars. CUT: the cell fragment ends at planes of constant scalar.
 #ifdef CAREFUL
 flat in vec4 face_depths[6];
 uniform dvec3 ray_perturbation;  // pixels: moves rays along faces to one side, equal for all tets
@@ -88,8 +88,8 @@ dvec2 find_exact_depths(dvec2 moved) {
 #ifndef EXACT_SEGMENTS
 vec2 find_depths(vec2 place) { return vec2(find_exact_depths(moved_place(place))); }
 #elif defined(SCALARS)
-// Returns the scalars at these depths. They are double because a scalar within the window is a small difference of
-// large numbers in a tet whose scalars reach far outside it (facts/drawn_range.h).
+// Returns the scalars at both depths. They are double because a scalar within the window is a small difference of large
+// numbers in a tet whose scalars reach far outside it (facts/drawn_range.h).
 vec2 exact_ends(dvec2 depths, dvec2 moved) {
     dvec4 of = dvec4(scalars) + dvec4(scalars_low);
 #ifdef ORTHOGRAPHIC

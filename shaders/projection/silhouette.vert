@@ -14,7 +14,8 @@ const uint gradient_record_size = 3u;
 
 uniform vec2 image_size;
 
-// The planes of four faces: depth, per column, per row. CAREFUL: doubles, each as the sum of two floats, high and low.
+// The planes of four faces: depth at the center, and its change per column and per row. CAREFUL: doubles, each as the
+// sum of two floats, high and low.
 #ifdef CAREFUL
 #define PAIR 2u
 #else
@@ -23,7 +24,7 @@ uniform vec2 image_size;
 flat out vec4 face_depths[3u * PAIR];
 flat out vec4 center;           // column, row, depth, z
 #ifdef SCALARS
-flat out vec4 scalars;          // at the center, per z, per column, per row
+flat out vec4 scalars;          // at the center; change per z, per column, per row
 #endif
 #if defined(EXACT_SEGMENTS) && defined(SCALARS)
 flat out vec4 scalars_low;      // remainders of these that float does not hold

@@ -2,7 +2,7 @@
 // Computes the scalar along a part of a ray inside one cell of the grid, a cubic, normalised so
 // that the volume's range is [0, 1].
 uniform sampler3D volume;
-uniform vec3 last_sample;        // of the texture: its size in samples, minus one
+uniform vec3 last_sample;        // the texture's size in samples, minus one
 uniform vec2 code_normalisation; // the code that becomes 0, and the factor to normalised scalars
 uniform float largest_code;
 

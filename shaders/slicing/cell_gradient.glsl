@@ -22,9 +22,9 @@ Corners corners_of(vec3 lower[4], vec3 upper[4], int axis) {
 }
 
 // Returns the gradient along the part of a ray from `place`, counted from the cell's lowest corner,
-// to place + change. Beyond the samples (`cell` axes) both corners on an axis are those of the
-// border, and no inner one: an inner gradient may be so long that adding and subtracting it would
-// lose all digits.
+// to place + change. Beyond the samples (axes with `cell` centering) both corners on an axis are
+// the border sample. An inner sample is not read there, because its gradient may be so long that
+// adding and subtracting it would lose all digits.
 CellGradient cell_gradient(ivec3 cell, vec3 place, vec3 change) {
     ivec3 last = ivec3(last_sample);
     ivec3 lower = clamp(cell, ivec3(0), last), upper = clamp(cell + 1, ivec3(0), last);

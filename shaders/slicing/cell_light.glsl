@@ -11,15 +11,16 @@ uniform float most_bend;  // a part is cut if light bends more along it
 // Length, as a share of the part, below which a piece is not cut further
 // (plan/classification_choice.cpp counts the iterations that this allows).
 const float shortest_lit_piece = 1.0 / 256.0;
-// Share of most_bend that a faint piece may keep, weighted by its opacity. It is half of the engine
-// `cpu`'s (faint_share_of_cells in executors/lights.h): here the number of iterations is
-// bounded anyway, and pieces grow more slowly.
+// A piece whose light bends more than most_bend is still not cut if its bend times its visible
+// opacity is at most this share of most_bend. The engine `cpu` uses twice the share
+// (faint_share_of_cells in executors/lights.h): here the number of iterations is bounded anyway,
+// and pieces grow more slowly.
 const float faint_share = 1.0 / 4.0;
 
 float length_square(vec3 v) { return dot(v, v); }
 
-// Returns a bound on highlights and changes of light between the nodes of Gauss' rule on the piece
-// of `extent` from `at` on, expressed as a bend.
+// Returns a bound, expressed as a bend, on highlights and changes of light that lie between the
+// nodes of Gauss' rule. The piece begins at t = `at` and is `extent` long.
 float hidden_bend(CellGradient gradient, float at, float extent) {
     float reach = 0.5 * extent, middle = at + reach;
     vec3 c2 = vec3(gradient.x.z, gradient.y.z, gradient.z.z), c3 = vec3(gradient.x.w, gradient.y.w, gradient.z.w);
@@ -40,10 +41,10 @@ vec2 beyond_kink(int i, vec3 front, vec3 middle, vec3 back, vec3 to_eye) {
     return largest * abs(ends) * vec2(lessThan(ends * dot(middle, to_light), vec2(0.0)));
 }
 
-// Returns a bound on the error of the rule with three nodes at kinks, expressed as a bend. A kink
-// is where the gradient is perpendicular to a light. In the middle of a piece it costs .045 of the
-// bend. At k of the piece's length from an end, k up to .5, it costs up to .113 of the cosine at
-// that end: k of the cosine if k < .113, which no node sees, and less beyond.
+// Returns a bound on the error of the rule with three nodes at kinks, expressed as a bend. Light
+// has a kink where the gradient is perpendicular to a light. A kink in the middle of a piece costs
+// .045 of the bend. A kink at k <= .5 of the piece's length from an end costs at most .113 of the
+// cosine at that end: k of it if k < .113, because no node lies there, and less if k is larger.
 float hidden_kinks(CellGradient gradient, vec3 to_eye, float at, float extent) {
     vec3 front = gradient_along(gradient, at), back = gradient_along(gradient, at + extent);
     vec3 middle = gradient_along(gradient, at + 0.5 * extent);
@@ -56,8 +57,8 @@ float hidden_kinks(CellGradient gradient, vec3 to_eye, float at, float extent) {
     return 0.113 / 0.045 * light_terms.y * max(seen.x, seen.y);
 }
 
-// The effect of light on the colour at an interval's left end (change) and on the interval's change
-// of colour (shared_change), and the highlights, summed over nodes; and the bend of light.
+// Sums over the nodes of a piece. `change` multiplies the colour at the interval's left end, and
+// `shared_change` the interval's change of colour. `highlight` is added.
 struct LightSum {
     LIGHT_COLOR change, shared_change, highlight, bend;
 };
@@ -73,9 +74,8 @@ float largest_component(vec3 v) { return max(v.x, max(v.y, v.z)); }
 float largest_component(float v) { return v; }
 
 // Adds light to a part's associated colour by Gauss' rule with three nodes, whose weights add up to
-// the part's opacity. `part` is the piece of `extent` from `at` on of the part of the ray for
-// which `gradient` is given. Returns the bend of light, or a bound on what the rule may miss if that
-// is larger. The rule misses .045 of the bend of a kink.
+// the part's opacity. `part` begins at t = `at` and is `extent` long, where t is the parameter of
+// `gradient`. Returns the bend of light, or the bound on what the nodes may miss if that is larger.
 float add_light(CellGradient gradient, vec3 to_eye, Interval interval, LinearPart part, float at, float extent,
                 float depth, float opacity, inout vec3 color) {
     const vec3 nodes = vec3(0.112701665, 0.5, 0.887298335);
@@ -108,6 +108,6 @@ bool bends(float bend, float seen) {
     return bend > most_bend && bend * seen * max(largest_effect, 1.0) > faint_share * most_bend;
 }
 
-// Returns the length, 1 / 8 to 1 of a part, at which it is cut first: the error at a kink falls
-// with the square of the length.
+// Returns the length of the first piece of a part, 1 / 8 to 1 of the part. It falls with the root
+// of the bend, because the error at a kink falls with the square of the length.
 float longest_piece(float bend) { return clamp(sqrt(most_bend / max(bend, 1e-30)), 1.0 / 8.0, 1.0); }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Integrates parts of rays and composites them front to back. A part lies in one cell, so its
-// scalar is a cubic of t = 0 .. 1. Parts that cross points of the transfer function (knots), or are
-// too deep for one rule, are cut into pieces. An interval lies between two knots.
+// scalar is a cubic of t = 0 .. 1. An interval lies between two neighbouring points of the transfer
+// function (knots). A part that stays in one interval and is shallow is integrated by one rule.
+// Other parts are cut where the scalar turns or crosses a knot (find_next_piece), and pieces that
+// are still too deep are shortened.
 #include "optics/cell_optics.glsl"
 
 // The parts that a ray has passed, composited: associated colour, optical depth and transmittance.
@@ -38,8 +40,8 @@ void add_linear_part(Interval interval, LinearPart part, float depth, inout Part
 }
 
 #ifndef SINGLE_COLOR
-// Shortens a part, moving its back, until it is no longer too deep. Returns whether it was not
-// shortened.
+// Moves the back of a part towards its front until the part is no longer too deep. Returns true if
+// nothing was cut off.
 bool shorten(inout LinearPart part, inout float extent) {
     const float shortest = 1e-6;  // share of the part at which shortening ends
     bool whole = true;
@@ -73,8 +75,8 @@ struct CutPlace {
     int interval;
 };
 
-// Returns the beginning of a part. If the scalar there is a knot, the interval is the one to which
-// the scalar goes. `turns`: where the scalar turns.
+// Returns the beginning of a part. If the scalar there is a knot, the interval is the one that the
+// scalar enters. `turns`: result of cubic_turns().
 CutPlace first_place(vec4 cubic, vec2 turns) {
     int interval = find_interval(clamp(cubic.x, 0.0, 1.0));
     bool falling = cubic_at(cubic, turns.x) < cubic.x;
@@ -82,7 +84,8 @@ CutPlace first_place(vec4 cubic, vec2 turns) {
     return CutPlace(0.0, cubic.x, interval);
 }
 
-// The piece of a part from a place on over which the scalar is monotone and stays in one interval.
+// The longest piece of a part that begins at a given place and over which the scalar is monotone
+// and stays in one interval.
 struct NextPiece {
     Interval interval;
     float t_to, s_to;   // t at its end, and the scalar there
@@ -100,7 +103,7 @@ NextPiece find_next_piece(vec4 cubic, vec2 turns, CutPlace place) {
     return NextPiece(interval, to, crosses ? knot : at_end, place.interval + (crosses ? rising ? 1 : -1 : 0));
 }
 
-// Returns the piece of `extent` from a place on; the scalar at its end is `at_end`, exactly.
+// Returns the piece of length `extent` that begins at a place. Its scalar ends at `at_end` exactly.
 LinearPart piece_from(CutPlace place, Interval interval, vec4 cubic, float extent, float at_end, float world_length) {
     vec4 piece = vec4(place.scalar, 0.0, (cubic.z + 3.0 * cubic.w * place.t) * extent * extent,
                       cubic.w * extent * extent * extent);

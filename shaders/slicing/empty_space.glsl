@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the slabs in which a ray comes near visible min/max bricks of the volume.
+// Finds the slabs in which a ray comes near visible min/max bricks of the volume. The distance of
+// the brick at the ray's place gives a cube of bricks that shows nothing; slabs that end before the
+// ray leaves this cube are empty.
 #include "slicing/brick_distances.glsl"
 
 const float brick_edge = float(BRICK_EDGE);
@@ -34,8 +36,8 @@ struct SlabRange {
     bool shown;
 };
 
-// Returns the slabs from number `slab` on that are known to be empty; or, if that one may be
-// visible, the slabs up to the next one for which a test is worth its time.
+// Returns the slabs from number `slab` on that are known to be empty. If `slab` itself may be
+// visible, returns the slabs up to the next one that is worth testing.
 SlabRange next_slab_range(BrickRay ray, float slab) {
     float depth = float(REAL(slab) * slab_thickness - ray.entry);
     vec3 place = ray.start + depth * ray.change;

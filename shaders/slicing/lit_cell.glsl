@@ -11,17 +11,17 @@ struct LitStep {
     vec3 to_eye;
 };
 
-// Length of the pieces into which a part is cut. It doubles after two pieces of full length whose
-// light bends little enough. So, of pieces whose light bends too much, two overlap only if one is
-// at least twice as long as the other, which bounds their number (plan/classification_choice.cpp).
+// Lengths of the pieces of a part, as shares of it. `longest` doubles after two pieces of full
+// length whose light bends little enough. So two rejected pieces overlap only if one is at least
+// twice as long as the other, which bounds their number (plan/classification_choice.cpp).
 struct PieceLength {
-    float first;    // behind each turn of the scalar and each knot
-    float longest;  // at present
+    float first;      // largest length just behind a turn of the scalar or a knot
+    float longest;    // largest length of the next piece
     bool passed_one;  // one full piece of the present length was added
 };
 
-// Chooses the length of the next piece. again: the last one bent too much. whole: it
-// ended where the NextPiece ends. full: it had the full length.
+// Chooses the length of the next piece. `again`: the last one bent too much. `whole`: it ended
+// where the NextPiece ends. `full`: it had the full length.
 void choose_length(bool again, bool whole, bool full, float extent, inout PieceLength pieces) {
     float longer = full && pieces.passed_one ? min(2.0 * pieces.longest, 1.0) : pieces.longest;
     pieces.longest = again ? 0.5 * extent : whole ? pieces.first : longer;
@@ -60,7 +60,7 @@ void add_cut_part(vec4 cubic, float world_length, CellGradient gradient, vec3 to
         add_lit_piece(cubic, turns, world_length, gradient, to_eye, pieces, place, sum);
 }
 
-// Adds a part whose scalar is a cubic, by one rule if possible. `way`: where it lies.
+// Adds a part whose scalar is a cubic, by one rule if possible. `way`: its place in the cell.
 void add_part(vec4 cubic, float world_length, LitStep way, inout PartSum sum) {
     vec2 range = clamp(cubic_range(cubic), 0.0, 1.0);
     Interval interval = interval_at(find_interval(range.x));

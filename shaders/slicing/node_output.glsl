@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the result of a node of a compositing tree whose nodes are computed in float
-// (docs/numerics.md, section 4). ROOT: the picture, associated colour and opacity. Otherwise:
-// colour that is not associated, and the code of the optical depth. MONOCHROME: the code alone.
-// ALPHA_APART: the code goes to a texture of its own.
+// (docs/numerics.md, section 4). ROOT: writes associated colour and opacity, the picture. Other
+// nodes write colour that is not associated, and the code of the optical depth. MONOCHROME: they
+// write the code alone. ALPHA_APART: the code goes to a texture of its own.
 #include "compositing/node_code.glsl"
 
 #ifdef ROOT

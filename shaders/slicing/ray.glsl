@@ -17,10 +17,10 @@
 #endif
 
 uniform vec2 image_middle;      // in pixels
-uniform REAL slab_thickness;    // of depth
+uniform REAL slab_thickness;    // in eye-space depth
 uniform REAL3 origin_middle;    // origin of the ray through the image's middle
 uniform REAL3 origin_column;    // change of the origin per pixel to the right
-uniform REAL3 origin_row;       // and per pixel downwards
+uniform REAL3 origin_row;       // change of the origin per pixel downwards
 uniform REAL3 direction_middle;
 #ifndef ORTHOGRAPHIC
 uniform REAL3 direction_column;

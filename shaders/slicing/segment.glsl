@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the colour, not associated, and the optical depth of the part of a ray between two
-// depths: integrate(), which has a form for each way to classify. DEPTH: type of the optical depth;
-// codes of n bits need double.
+// integrate() computes the colour, not associated, and the optical depth of the part of a ray
+// between two depths. It has one form for each classification. DEPTH is the type of the optical
+// depth; codes of n bits need double.
 #define SAMPLING_NONE 0
 #define SAMPLING_FETCH 1
 #define SAMPLING_FILTER 2
@@ -39,7 +39,7 @@ struct Segment {
     vec3 color;
     DEPTH depth;
 #ifdef TABLE_LIT
-    vec4 front;  // front parts (optics/segment_integral.h) of colour and opacity, over opacity
+    vec4 front;  // front parts (optics/segment_integral.h) of colour and opacity, divided by opacity
 #endif
 };
 

@@ -47,8 +47,8 @@ struct LitEnd {
 
 LitEnd unknown_end() { return LitEnd(LightEffect(LIGHT_COLOR(0.0), LIGHT_COLOR(0.0)), false); }
 
-// Lights a segment between two depths. `end`: at the call the light at its front, if known; then
-// that at its back.
+// Lights a segment between two depths. `end`: the light at the segment's front, if known; on return
+// the light at its back.
 void light_segment(Ray ray, REAL2 depths, inout LitEnd end, inout Segment segment) {
     bool shows = segment.depth > DEPTH(0.0);
     LightEffect front = end.effect;
