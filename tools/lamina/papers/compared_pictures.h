@@ -51,7 +51,6 @@ VariantErrors errors_of(const std::string& variant, const Difference& difference
 // Returns a row for csv_of_rows: {mesh, tets, picture, linf, l1, l2, opacity_l1, opacity_l2}.
 nlohmann::ordered_json error_row(const KrausSubject& subject, const VariantErrors& errors);
 
-// Result of write_compared_pictures().
 struct ComparedPictures {
     std::vector<VariantErrors> errors;  // one for each variant
     nlohmann::ordered_json values;      // files, mesh, pixels, inset, scale, rows, panels

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* all_remedies = "all remedies";
-constexpr double visible = 1;    // least visible error, in 1/255
+constexpr double visible = 1;    // smallest visible error, in 1/255
 constexpr double graded = 1000;  // edge ratio above which a mesh counts as graded
 
 // Returns the variants of `scene`, which has every remedy of the paper, each with one remedy off.
@@ -60,7 +60,7 @@ const VariantErrors& find(const std::vector<VariantErrors>& errors, const std::s
     return *found;
 }
 
-// A statement about meshes. It holds if it holds on every mesh that was added.
+// A statement about meshes, which holds if it is true of every mesh that was added.
 class OnMeshes {
   public:
     // `measured`: shown for meshes on which the statement does not hold.

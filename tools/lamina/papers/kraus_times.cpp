@@ -107,7 +107,6 @@ void judge_table1(Findings& findings, const Json& rows) {
 // Size of the picture from which the extinctions of the boxes are derived.
 constexpr int coarse_width = 160, coarse_height = 120;
 
-// A mesh of Table 2.
 struct TimedMesh {
     std::string name;
     const study::TracedMesh* mesh;

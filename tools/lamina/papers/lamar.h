@@ -112,7 +112,7 @@ class LamarStage {
 
 inline constexpr int ramp_width = 256;
 
-// For each ray the associated colour that is shown, in units of 1/255.
+// The associated colour that each ray shows, in units of 1/255.
 using Curve = std::vector<double>;
 
 struct RampSetting {

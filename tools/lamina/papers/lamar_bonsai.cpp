@@ -57,7 +57,7 @@ Scene bonsai_scene() {
 // Tells how much a picture shows of the leaves: the pixels that are green in the exact picture.
 struct Leaves {
     double light[3] = {};  // sum of each channel, over that of the exact picture
-    double kept = 0;       // share of the pixels that have at least half of their green
+    double kept = 0;       // share of the pixels with at least half of their exact green
     double black = 0;      // share of the pixels that show nothing
 };
 

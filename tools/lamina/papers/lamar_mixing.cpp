@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// LaMar 2004, Table 4 and Figure 6: dithering along depth of two liquids that mix.
+// LaMar 2004, with two liquids that mix: dithering along depth (Table 4, Figure 6), both
+// compositing orders (section 4.2) and exponent-factoring (Figure 10).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -310,8 +311,6 @@ Json draw_order_mixing(const std::filesystem::path& folder, LamarStage& stage) {
                     front_better, count, back_better));
     return findings.result({{"files", {"order_mixing.csv"}}, {"pixels", pixels}, {"rows", rows}});
 }
-
-// LaMar 2004, Figure 10: exponent-factoring of two liquids that mix.
 
 Json draw_figure10(const std::filesystem::path& folder, LamarStage& stage) {
     const Scene white = mixing_scene(stage.pixels(), true), colored = mixing_scene(stage.pixels());

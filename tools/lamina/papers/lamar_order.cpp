@@ -28,7 +28,7 @@ constexpr double same_share = 0.05;
 
 struct Profile {
     const char* name;
-    // Returns the largest opacity code of sample i, if that of the ray is m.
+    // Returns the largest opacity code of sample i; m is the largest of the ray.
     int (*largest)(int i, int m);
 };
 const Profile profiles[] = {
@@ -120,7 +120,7 @@ std::vector<OrderCase> order_cases() {
     return cases;
 }
 
-// Plot of the cases with an even profile, random colours and truncated opacities.
+// Plots the cases with an even profile, random colours and truncated opacities.
 class OrderPlot {
   public:
     void add(const OrderCase& order_case, const OrderErrors& errors) {

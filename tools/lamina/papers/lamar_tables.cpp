@@ -41,9 +41,11 @@ constexpr Table1Row table1_printed[] = {
 
 struct Table1Values {
     std::string opacity, binary, computed;
-    std::uint32_t buffer = 0;  // what 64 times OVER leaves in 8 bits
+    std::uint32_t buffer = 0;  // code in an 8-bit buffer after 64 times OVER
 };
 
+// Computes a row as the printed digits imply: hardware keeps the upper byte k of a 16-bit opacity,
+// and column (d) is 1 - (1 - k / 256)^64 in real arithmetic, where k = 255 counts as opacity 1.
 Table1Values table1_values(double unit_opacity) {
     const double alpha = opacity_over(unit_opacity, 1.0 / table1_samples);
     const auto sixteen = static_cast<unsigned>(std::min(std::floor(alpha * 65536), 65535.0));
