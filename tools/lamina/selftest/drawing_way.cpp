@@ -25,7 +25,7 @@ PreciseImage PictureMaker::draw(const Scene& scene, const SceneData& data,
 namespace {
 
 // Rounding of float targets. In float32 a blend has about four roundings. In float16 fragment and
-// result are stored with 11 bits, the smallest numbers in steps of 2^-24.
+// result are stored with 11 bits, and subnormal numbers in steps of 2^-24.
 constexpr BlendRounding of_float32{0, 0, 0, 0x1p-22};
 constexpr BlendRounding of_float16{0, 0x1p-24, 0x1p-24, 0x1p-10};
 

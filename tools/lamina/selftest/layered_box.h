@@ -56,8 +56,8 @@ struct BoxChord {
     double w(double parameter) const { return start.z + parameter * step.z; }
 };
 
-// Returns the chord of the box widened by `slack` on all sides; nothing if the ray misses it. For
-// sides `slack` is a share of the edge, for `cuts` of the longest edge.
+// Returns the chord of the box widened by `slack` on all sides; nothing if the ray misses it.
+// `slack` is a share of the edge for sides, and of the longest edge for `cuts`.
 std::optional<BoxChord> box_chord(const LayeredBox& box, const View::Ray& ray, double slack);
 
 // The scene that a case of the self-test draws: a layered box, both as a volume and as a mesh.
@@ -66,7 +66,7 @@ struct SelftestScene {
     std::string about;  // why it is stiff or extreme
     LayeredBox box;
     Scene scene;  // transfer function, camera, size, number of slabs; no files
-    // Makes tets that fill the box. Empty: no mesh is drawn.
+    // Makes tets that fill the box. If it is empty, no mesh is drawn.
     std::function<MeshData(const LayeredBox&)> mesh;
 };
 
@@ -81,9 +81,9 @@ MeshData kuhn_tets(const LayeredBox& box, int across);
 // them share as a corner, to its surface.
 MeshData fan_tets(const LayeredBox& box, int across);
 
-// Makes tets for a box of one layer: kuhn_tets(box, 1), in which `splits` times a point inside a
-// tet splits it. The point's distance from a face, an edge or a corner of the tet is at most the
-// share `least`, which gives flat tets, slivers and needles.
+// Makes tets for a box of one layer: kuhn_tets(box, 1), in which up to `splits` points each split
+// the tet around them into four. The point's distance from a face, an edge or a corner of the tet
+// is at most the share `least`, which gives flat tets, slivers and needles.
 MeshData split_tets(const LayeredBox& box, int splits, double least, std::uint32_t seed);
 
 // Returns the mesh with its tets, their corners and its points reordered.

@@ -67,8 +67,8 @@ double moved_mean_share(double width, double error) {
     return rest > 0 ? std::min(1.0, 2 * error / rest) : 1.0;
 }
 
-// Returns the range of optics in an interval of w. `bent`: the scalar may be replaced by a straight
-// line, moved by two thirds of the scalar's deviation from it (Simpson), at most the scalar's
+// Returns the range of optics in an interval of w. `bent`: the method may replace the scalar by a
+// line, moved by two thirds of the scalar's deviation from it (Simpson), which is at most its
 // range.
 OpticsRange optics_between(const LayeredBox& box, const TransferFunction& transfer_function,
                            Interval w, double scalar_error, bool bent = false) {
@@ -115,8 +115,8 @@ struct UncertainChord {
     }
 };
 
-// Calls visit(chord, the slab's part of it, its possible lengths) for every slab that the ray may
-// meet.
+// Calls visit(chord, part, lengths) for every slab that the ray may meet. `part`: the chord's part
+// in the slab. `lengths`: its possible world lengths.
 template <typename Visit>
 void for_each_slab(const UncertainChord& chord, const Slabs& slabs, const Visit& visit) {
     if (!chord.widest) return;
@@ -180,7 +180,7 @@ std::vector<PieceBounds> middle_pieces(const LayeredBox& box,
         const OpticsRange shown = optics_between(
             box, transfer_function, Interval{middle, middle}.widened(off), scalar_error);
         pieces.push_back({times(shown.extinction, lengths, precision.relative), shown.color});
-        // If the common end of two slabs is off, one of them has a part of the other.
+        // If the plane between two slabs is off, one of them gets a part of the other.
         const double half = 0.5 * part.width() * std::abs(any.step.z);
         const OpticsRange met = optics_between(
             box, transfer_function, Interval{middle, middle}.widened(half + off), scalar_error);
@@ -246,7 +246,7 @@ std::vector<PieceBounds> tet_pieces(const LayeredBox& box,
                              precision.relative * exact.integral.optical_depth;
         PieceBounds piece = exact_piece(exact.integral);
         piece.depth = {certain ? std::max(0.0, piece.depth.lo - error) : 0, piece.depth.hi + error};
-        // The colour's share of a piece is as uncertain as the depth's.
+        // The weights of the piece's colours are as uncertain as its optical depth.
         const double color_share = std::min(1.0, precision.color + 2 * share + error);
         for (std::size_t c = 0; c < 3; ++c) {
             const double by =

@@ -36,14 +36,14 @@ std::vector<PieceBounds> middle_pieces(const LayeredBox& box,
                                        const Precision& precision);
 
 // Returns the pieces of classification `preintegrated`. If the scalar is linear in a slab, the
-// piece has the exact optical depth, otherwise one of scalars that occur in it. Colours are ones
-// that occur in the piece.
+// optical depth is exact except for rounding. Otherwise it may be that of any scalar in the slab.
+// The colour may be any that occurs in the slab.
 std::vector<PieceBounds> run_pieces(const LayeredBox& box,
                                     const TransferFunction& transfer_function, const View::Ray& ray,
                                     const Slabs& slabs, const Precision& precision);
 
-// Returns the pieces as drawn by tets that conform to the layers. `length_error`: sum of the errors
-// of faces along the ray, in world units.
+// Returns the pieces that tets draw if they conform to the layers. `length_error`: bound on the sum
+// of the errors of all lengths along the ray, in world units.
 std::vector<PieceBounds> tet_pieces(const LayeredBox& box,
                                     const TransferFunction& transfer_function, const View::Ray& ray,
                                     double length_error, const Precision& precision);
@@ -56,7 +56,7 @@ class OneGradientLight {
     OneGradientLight(const Lighting& lighting, const LayeredBox& box, const View::Ray& ray);
 
     void shine_on(std::array<double, 4>& pixel) const;
-    // `error`: of factor and highlight, as a share of the sum of all terms.
+    // `error`: error of factor and highlight, as a share of the sum of all terms.
     void shine_on(PixelBounds& pixel, double error) const;
 
   private:

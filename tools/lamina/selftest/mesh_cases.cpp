@@ -81,7 +81,6 @@ MeshData sticks() {
     return tets_of(corners);
 }
 
-// Makes tets around a common edge.
 MeshData edge_fan(int count) {
     MeshData mesh;
     MeshScalar scalar{"scalar", {0, 1}};

@@ -150,7 +150,6 @@ SelftestScene orthographic(const std::string& name, const std::string& about,
     return scene;
 }
 
-// Returns a box whose light shines towards the eye.
 SelftestScene light_behind() {
     SelftestScene scene = orthographic(
         "opposite_light", "A light straight towards the eye: no highlight", two_lights(.1));

@@ -97,8 +97,8 @@ namespace {
 
 constexpr Interval everything{-1e30, 1e30};
 
-// Rounding of the place in a 256 x 256 table of colour weights: float32 divides a cell into 2^24
-// parts. Opacity comes from no table.
+// Rounding of the position in a table of 256 x 256 colour weights: float32 divides a cell into 2^24
+// parts. Opacity does not come from a table.
 constexpr double place_in_table = 0x1p-32;
 
 // Error of light from stored gradients: direction and weight are off by at most 2^-15
@@ -122,12 +122,12 @@ void widen(PixelBounds& pixel, double absolute, double relative, double of_color
     for (Interval& channel : pixel) channel.lo = std::max(channel.lo, 0.0);
 }
 
-// Returns a bound on the error of a picture by the codes of a tree's inner images. A code that is
-// off by e moves the final opacity by at most Y e of its node's weight (docs/numerics.md, section
-// 4). The nodes of one level together, each seen through those before it, move it by at most 7 Y e:
-// by e Y where sigma <= 1, since their shares add up to 1; by e Y where 1 < sigma <= 1/w, since
-// depths in front of each other do not add up to more; by 1.58 Y beyond, a geometric sum of 1/e.
-// Colours move by as much again through the weights, and by e through their own codes.
+// Returns a bound on the error of a picture by the codes of a tree's inner images. If a code is off
+// by h, the final opacity moves by at most Y h times its node's weight (docs/numerics.md, section
+// 4). All nodes of a level together, each behind those in front of it, move it by at most 7 Y h:
+// nodes with sigma <= 1 by e Y h, since their shares add up to 1; nodes with 1 < sigma <= 1/w by e
+// Y h, since depths in front of each other add up to no more; others by 1.58 Y h, a geometric
+// series of 1/e. Colours move by as much again through the weights, and by h through their codes.
 double tree_error(const TreeSettings& tree, double code) {
     double sum = code;  // of the root
     double share = 1;

@@ -18,7 +18,6 @@ namespace lamina::selftest {
 
 // Chords of rays in the tets of a mesh. Each tet is intersected separately in double precision,
 // without its neighbours, which is right for every mesh, even one that overlaps itself.
-
 class MeshChords {
   public:
     // `face_error`: error of the position of faces, as a share of a tet's longest edge.
@@ -36,7 +35,7 @@ class MeshChords {
     struct Solid {
         std::array<glm::dvec3, 4> normals;  // unit, outwards
         std::array<double, 4> offsets;      // distances of the faces from the eye
-        double error = 0;                   // world
+        double error = 0;                   // position error of its faces, in world units
         glm::dvec3 gradient{0};             // gradient of the scalar
         double scalar_at_eye = 0;
         Interval scalars;

@@ -58,8 +58,8 @@ struct PieceBounds {
     std::array<Interval, 3> color;
 };
 
-// Largest rounding errors of one blend, in full scale: of the fragment's opacity, of its associated
-// colour, and of the result; `relative`: proportional to opacity and to the result.
+// Largest rounding errors of one blend (full scale is 1): of the fragment's opacity, its associated
+// colour and the result. `relative`: error as a share of the opacity and of the result.
 struct BlendRounding {
     double alpha = 0, color = 0, over = 0, relative = 0;
 

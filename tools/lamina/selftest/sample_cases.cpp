@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Cases of one trilinear cell, seen along a diagonal: the scalar along the ray is a polynomial, and
+// opacity has a closed form. Cases of extreme numbers: coordinates, sizes and sample types.
 #include <fmt/format.h>
 
 #include <array>
@@ -14,7 +16,7 @@ namespace lamina::selftest {
 namespace {
 
 constexpr glm::dvec3 cell_color{.5, 1, .25};
-// Errors of a float32 scalar between 0 and 1, about four roundings, and of opacity.
+// Errors of a float32 scalar between 0 and 1 (about four roundings) and of opacity.
 constexpr double cell_scalar_error = 0x1p-22, cell_opacity_error = 0x1p-20;
 
 struct CellScene {
@@ -35,8 +37,8 @@ Volume cell_volume(bool saddle) {
     return {grid, SampleType::float32, {samples, samples->data()}};
 }
 
-// Returns a scene of one ray, through opposite corners of the cell; of the saddle, from (1, 0) to
-// (0, 1).
+// Returns a scene of one ray. It passes through opposite corners of the cell or, for the saddle,
+// from (1, 0) to (0, 1).
 Scene cell_scene_of(const CellScene& cell) {
     Scene scene;
     scene.transfer_function = cell.transfer_function;
@@ -195,9 +197,6 @@ SelftestScene not_finite(const std::string& name, double value) {
 
 }  // namespace
 
-// Cases of one trilinear cell, seen along a diagonal: the scalar along the ray is a polynomial, and
-// opacity has a closed form.
-
 std::vector<SelftestCase> cell_cases() {
     std::vector<SelftestCase> cases;
     for (const CellScene& cell : all_cells()) {
@@ -212,8 +211,6 @@ std::vector<SelftestCase> cell_cases() {
     }
     return cases;
 }
-
-// Cases of extreme numbers: coordinates, sizes, anisotropy, sample types and their extremes.
 
 std::vector<SelftestCase> number_cases() {
     std::vector<SelftestScene> scenes;

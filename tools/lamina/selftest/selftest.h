@@ -48,7 +48,7 @@ std::vector<SelftestResult> run_selftest(const std::vector<SelftestCase>& cases,
 
 std::size_t count_of(const std::vector<SelftestResult>& results, Verdict verdict);
 
-// Return tables for people: one line for each case, and one for each group.
+// Return tables with one line for each case and for each group.
 std::string selftest_table(const std::vector<SelftestResult>& results);
 std::string selftest_summary(const std::vector<SelftestResult>& results);
 // Returns {cases: [{group, scene, way, verdict, error, bound, largest_error, ms, about, note}],

@@ -175,8 +175,6 @@ std::vector<SelftestCase> view_cases() {
                                 "project float32", "project analytic float32"}));
 }
 
-// Boxes cut by planes: rays end where they meet the planes.
-
 std::vector<SelftestCase> clip_cases() {
     return cases_of(
         "clips", all_clips(),
