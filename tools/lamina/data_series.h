@@ -51,6 +51,7 @@ class DataSeries {
 
     std::vector<std::int64_t> steps_;
     std::string first_file_;
+    // Patterns of the command line's file and of the scene's "volume" and "mesh"; none if fixed.
     std::optional<FilePattern> file_, volume_, mesh_;
 };
 

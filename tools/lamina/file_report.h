@@ -20,13 +20,13 @@ inline nlohmann::ordered_json json_vector(const glm::dvec3& vector) {
 // there is no finite value.
 void add_statistics(const ValueStatistics& statistics, nlohmann::ordered_json& info);
 
-// Return the values of these two keys, which must not be null, as lines for people; the histogram
-// in at most 16 rows.
+// Return the values of these two keys, which must not be null, as text; a histogram has at most 16
+// rows.
 std::string percentiles_text(const nlohmann::ordered_json& percentiles);
 std::string histogram_text(const nlohmann::ordered_json& histogram);
 
-// Returns `above` on white with another picture under it: below(width), where width is that of
-// `above`, at least 480 pixels.
+// Returns `above` on white, and under it the picture below(width). `width` is that of `above`, but
+// at least 480 pixels.
 CodedImage above_one_another(const CodedImage& above, const std::function<CodedImage(int)>& below);
 
 // Reports of `lamina info FILE` (docs/meshes.md), and the picture that it writes to `png` unless

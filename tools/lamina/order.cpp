@@ -85,15 +85,16 @@ Input load(const std::string& file) {
     return {pipeline.data().mesh(pipeline.scene())->mesh, *pipeline.scene().camera};
 }
 
-// Halton's sequence: mirrors the digits of `index` (1, 2, ...) in base `base` at the point.
+// Returns a number of Halton's sequence: the digits of `index` in base `base`, mirrored at the
+// point.
 double radical_inverse(int index, int base) {
     double value = 0, digit = 1;
     for (; index > 0; index /= base) value += (index % base) * (digit /= base);
     return value;
 }
 
-// Returns the camera of a view. In turn: perspective from outside the mesh, orthographic from
-// there, and perspective from inside its box.
+// Returns the camera of a view. Views alternate: perspective from outside the mesh, orthographic
+// from there, and perspective from inside its box.
 Camera camera_of(int index, const TetMesh& mesh) {
     const glm::dvec3 extent = mesh.bounds().max - mesh.bounds().min;
     const double diagonal = glm::length(extent);
@@ -148,6 +149,8 @@ void time_sort(VisibilityOrder& order, const TetMesh& mesh, const Eye& eye, Outc
     outcome.cyclic_tets = std::max(outcome.cyclic_tets, order.report().cyclic_tets);
 }
 
+// For each view, times the sorts of every method, and tells on the ray of each pixel whether the
+// tets on it are drawn in the right order (judge_pixels()).
 std::vector<Outcome> measure_orders(const Input& input, int eyes, const Size& size) {
     const FaceTree open_faces(input.mesh, input.mesh.open_faces());
     std::vector<std::unique_ptr<VisibilityOrder>> orders;

@@ -154,7 +154,7 @@ void print_explanation(const RenderOptions& options, const std::string& explanat
     for (std::string line; std::getline(lines, line);) write_message(line + "\n");
 }
 
-// The scene as the command line gives it, with its JSON and the steps of --time.
+// The scene that the command line describes, its JSON, and the steps of --time.
 struct ReadScene {
     Scene scene;
     nlohmann::json document;
@@ -204,7 +204,6 @@ void say_written(const RenderOptions& options, const Scene& scene, const RunStat
                                  run.picture.drawn_by, took));
 }
 
-// Does one `lamina render`: reads the files, draws, writes the picture and the statistics.
 void run(const RenderOptions& options, const RenderExtras& extras) {
     std::optional<ProfileFile> profile;
     if (!options.profile.empty()) profile.emplace(options.profile);

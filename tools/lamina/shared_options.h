@@ -64,7 +64,7 @@ void add_view_options(CLI::App& verb, ViewOptions& options);
 // Throws UsageError.
 Adjustments adjustments_of(const ViewOptions& options, ImageColorSpace space);
 
-// Returns the other options as values of --set: "image.width=800".
+// Returns the options that adjustments_of() leaves out as values of --set: "image.width=800".
 std::vector<std::string> settings_of(const ViewOptions& options);
 
 // Returns the scene with transfer function and camera chosen for its volume, even if it draws a

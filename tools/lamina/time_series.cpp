@@ -59,7 +59,7 @@ std::vector<std::string> TimeSeries::names() const {
     return names;
 }
 
-// Hash of what is common to all pictures; see input_of() for the rest.
+// Returns a hash of the input that all pictures share; input_of() hashes the rest.
 std::string TimeSeries::key_of(const PictureAttributes& attributes) const {
     ContentHash hash;
     for (const auto& [name, text] : attributes) hash.add(text);
@@ -75,7 +75,7 @@ std::string TimeSeries::key_of(const PictureAttributes& attributes) const {
     return hash.hex();
 }
 
-// Hash of what only this step's picture depends on.
+// Returns a hash of the input that only this step's picture depends on.
 std::string TimeSeries::input_of(std::int64_t step) const {
     ContentHash hash;
     hash.add(static_cast<double>(step));
@@ -127,6 +127,8 @@ void TimeSeries::draw_step(Pipeline& pipeline, const Scene& scene, std::int64_t 
         clamped + write_picture(picture, pipeline, image, attributes);
 }
 
+// Draws the steps one by one, while another thread loads the next one. The series' first step has
+// been loaded by `pipeline` already.
 void TimeSeries::draw_missing(const std::vector<std::int64_t>& steps, SeriesRecord& record,
                               Pipeline& pipeline, RunStatistics& run,
                               PictureAttributes& attributes) const {
