@@ -23,8 +23,8 @@ MeshData carved(MeshData mesh, const Keep& keep) {
 }
 
 // Returns three tets, long sticks around the z axis that do not touch. Each has its high end over
-// the low end of the next, so that for an eye above or below they hide one another in a cycle.
-// Their low ends are 2 * width wide, their high ends .04 high.
+// the low end of the next, so that for an eye above or below they hide one another in a cycle. The
+// low end of stick i is 2 * width[i] wide; the high ends are .04 high.
 inline MeshData three_sticks(const std::array<double, 3>& width) {
     MeshData mesh;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -18,7 +18,6 @@ struct NamedClip {
     Clip clip;
 };
 
-// Returns clips of the unit box, with names.
 inline std::vector<NamedClip> clips_of_unit_box() {
     const glm::dvec3 middle(.5);
     return {

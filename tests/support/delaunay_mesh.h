@@ -29,7 +29,7 @@ class DelaunayMesh {
     using Point = std::array<std::int64_t, 3>;
     struct Cell {
         Tet corners;
-        std::array<std::int32_t, 4> across;
+        std::array<std::int32_t, 4> across;  // cell behind each face; -1: none
         bool alive = true;
     };
     static constexpr std::int64_t size = 1 << 20;
@@ -43,8 +43,8 @@ class DelaunayMesh {
         const Point& p = points_[static_cast<std::size_t>(a)];
         return {p[0] - b[0], p[1] - b[1], p[2] - b[2]};
     }
-    // Returns six times the volume of face `face` of a cell and a point: negative if the point lies
-    // on the face's outer side.
+    // Returns six times the signed volume of the tet of a face and a point. It is negative if the
+    // point lies on the face's outer side.
     Integer inside(const Cell& cell, std::size_t face, const Point& point) const {
         const auto [a, b, c] = corners_of_face(cell.corners, face);
         return determinant(difference(a, point), difference(b, point), difference(c, point));
@@ -93,7 +93,7 @@ class DelaunayMesh {
 
     std::int32_t cell_at(const Point& point) const {
         std::int32_t at = last_;
-        // A remembering stochastic walk, but without random choices.
+        // Crosses any face that has the point on its outer side. In a Delaunay mesh this ends.
         for (std::size_t turn = 0;; ++turn) {
             const Cell& cell = cells_[static_cast<std::size_t>(at)];
             std::size_t tried = 0;
@@ -155,7 +155,7 @@ class DelaunayMesh {
     }
 
     // Joins a new cell, whose corner 0 is the new point, with its neighbours among the new cells:
-    // two of them share a face at the new point if they share its opposite edge.
+    // two share a face if they share its edge (a, b). `waiting`: sides not joined yet, by edge.
     template <typename Waiting>
     void join_sides(std::int32_t made, Waiting& waiting) {
         const Tet corners = cells_[static_cast<std::size_t>(made)].corners;

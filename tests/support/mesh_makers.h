@@ -82,7 +82,6 @@ inline std::string zlib(const std::string& bytes) {
     return packed;
 }
 
-// An encoding of a .vtu file.
 struct VtuStyle {
     std::string format = "ascii";  // ascii, binary, raw, base64
     bool compressed = false, header64 = false, big_endian = false;
@@ -104,7 +103,6 @@ inline std::vector<VtuStyle> all_vtu_styles() {
     return styles;
 }
 
-// Makes .vtu files in one encoding.
 class VtuMaker {
   public:
     explicit VtuMaker(VtuStyle style) : style_(std::move(style)) {}

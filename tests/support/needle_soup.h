@@ -50,7 +50,7 @@ inline bool apart(const NeedleCorners& a, const NeedleCorners& b) {
 }
 
 // Returns at most `count` needles, with their middles in the unit cube and random values at their
-// points.
+// points. They are .3 to 1 times `length` long; their ends are .6 to 2.6 times `width` wide.
 inline MeshData needle_soup(int count, std::uint32_t seed, double length, double width) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);

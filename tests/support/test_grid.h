@@ -17,7 +17,7 @@ namespace lamina::testing {
 
 // An array of data, as a file holds it.
 struct TestArray {
-    std::string name, type;  // type: as in VTK XML files
+    std::string name, type;  // type: a name of VTK XML files, "Float32"
     int components = 1;
     std::vector<double> values;
 };
