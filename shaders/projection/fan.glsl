@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the optics of a fragment of the triangles of Kraus 2004. The inputs are the members of FanVertex
 // (projection/fan_geometry.h), interpolated.
-in vec3 inverse;
-in vec4 front_values;
+in vec3 inverse;       // 1 / z at the front and at the back, and their difference; if not DIVIDED, z is the thickness
+in vec4 front_values;  // scalar in x, or colour and extinction; divided by z if DIVIDED
 in vec4 back_values;
-flat in vec2 scalars;
+flat in vec2 scalars;  // least and largest scalar of the tet
 flat in uint tet;
 
 uint cell_fragment_number() { return tet; }

@@ -4,7 +4,8 @@
 // the polygon covers a little more than the tet, and rasterisers move its corners.
 //
 // CAREFUL: depths are double, for faces seen nearly edge-on, tets at the near plane, and an eye inside the tet.
-// EXACT_SEGMENTS: so are lengths and scalars. CUT: the cell fragment ends at planes of constant scalar.
+// EXACT_SEGMENTS: so are lengths and scalars. CUT: the cell fragment ends at planes of constant scalar. silhouette.vert
+// describes the inputs.
 #ifdef CAREFUL
 flat in vec4 face_depths[6];
 uniform dvec3 ray_perturbation;  // pixels: moves rays along faces to one side, equal for all tets

@@ -103,6 +103,8 @@ class DelaunayMesh {
         }
     }
 
+    // Removes the cells whose circumspheres contain the point, and joins the point with each face
+    // of the cavity that they leave.
     void insert(const Point& point) {
         const std::vector<std::int32_t> cavity = cells_around(point);
         const auto index = static_cast<std::int32_t>(points_.size());

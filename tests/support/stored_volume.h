@@ -49,9 +49,9 @@ class SourceInMemory : public SampleSource {
         return hash.hex();
     }
 
-    mutable std::atomic<std::int64_t> samples_read{0};
-    std::function<void(const SampleBox&)> before_read;
-    bool changed = false;
+    mutable std::atomic<std::int64_t> samples_read{0};  // by all reads so far
+    std::function<void(const SampleBox&)> before_read;  // called by read()
+    bool changed = false;                               // makes check_unchanged() fail
 
   private:
     Volume volume_;

@@ -37,7 +37,6 @@ struct MeshOptions {
     RawOptions raw;
 };
 
-// The volume that a mesh is made from, and how.
 struct MeshTask {
     Volume volume;
     MeshSettings settings;

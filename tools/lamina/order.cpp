@@ -119,8 +119,8 @@ Camera camera_of(int index, const TetMesh& mesh) {
 
 // Results of one order method over all views.
 struct Outcome {
-    std::vector<double> ms;
-    std::int64_t violations = 0;
+    std::vector<double> ms;       // of each timed sort
+    std::int64_t violations = 0;  // shared faces whose tets are drawn in the wrong order
     OrderPixels pixels;
     std::int64_t cycles = 0, cyclic_tets = 0;  // largest numbers in one view
 

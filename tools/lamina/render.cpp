@@ -68,7 +68,6 @@ Json event(const Profile::Span& span, std::int64_t start_ns) {
 // format for Perfetto and chrome://tracing.
 class ProfileFile {
   public:
-    // Throws Error if the file cannot be written.
     explicit ProfileFile(const std::string& name) : file_(open_named(name)) {}
 
     // Writes the file. `title`: name of the process in it; `context`: what draws. Returns the

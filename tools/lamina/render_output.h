@@ -33,7 +33,7 @@ struct RenderExtras {
 
 CLI::App& add_render_with(CLI::App& app, const RenderExtras& extras);
 
-using PictureAttributes = std::map<std::string, std::string>;  // of an EXR file
+using PictureAttributes = std::map<std::string, std::string>;  // name and text, for EXR files
 
 // A picture file of `render -o`, or stdout for "-". It is opened before rendering begins, so that a
 // path that cannot be written fails at once.

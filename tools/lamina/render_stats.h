@@ -15,13 +15,12 @@ namespace lamina {
 // Statistics of one `lamina render` (--stats): those of its first picture, with the largest counts
 // of all pictures, and the times of all frames.
 struct RunStatistics {
-    FrameStatistics picture = {};  // until the first picture: the stages before it
+    FrameStatistics picture = {};  // before the first picture: only the stages so far
     std::vector<double> frames_ms = {};
     // Time from the start of reading the scene to the written picture, without the frames of
     // --frames.
     double first_picture_ms = 0;
 
-    // Adds the next picture's statistics.
     void add(const FrameStatistics& next);
 };
 

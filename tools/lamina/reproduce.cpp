@@ -64,7 +64,6 @@ std::vector<std::string> files_of(const std::vector<papers::PaperItem<Stage>>& i
     return files;
 }
 
-// Returns the items' data files that exist.
 std::vector<std::filesystem::path> data_files() {
     const std::filesystem::path data = papers::KrausStage::data_folder();
     if (data.empty()) return {};

@@ -89,7 +89,6 @@ void say_what_is_left_out(const study::RunList& list, const StudyOptions& option
         say(options, fmt::format("{} runs left out: {}", dropped.runs, dropped.because));
 }
 
-// Prints the amount of work before it begins.
 void say_what_it_makes(const study::RunList& list, const StudyOptions& options) {
     say(options,
         fmt::format("{}: {} runs of {} scenes, each timed in {} rounds of {} frames", options.study,

@@ -77,7 +77,7 @@ double layer_depth(double x, double y) {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int magnification = 12;
+constexpr int magnification = 12;  // of an inset to the size of the picture
 // An inset's contrast is enlarged as if its range were at least this.
 constexpr double least_range = 16.0 / 255;
 constexpr double inset_mean = 0.35;  // mean of an inset as shown, in linear light

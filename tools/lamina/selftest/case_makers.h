@@ -25,12 +25,11 @@ std::vector<SelftestCase> cases_of(const std::string& group,
                                    const std::vector<DrawingWay>& ways);
 SelftestCase case_of(const std::string& group, const MeshScene& scene, const DrawingWay& way);
 
-// Returns a case of two scenes whose pictures must agree.
 SelftestCase same_picture_case(const std::string& group, const std::string& name,
                                const SelftestScene& a, const SelftestScene& b,
                                const DrawingWay& way);
 
-// Returns a case in which drawing must throw Error.
+// Returns a case in which drawing must throw Error, whose message contains `reason`.
 SelftestCase refusal_case(const std::string& group, const SelftestScene& scene,
                           const DrawingWay& way, const std::string& reason);
 

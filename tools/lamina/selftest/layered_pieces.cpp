@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// Cuts a ray at layers (exact_pieces, tet_pieces) or at slabs (middle_pieces, run_pieces). Bounds a
+// piece by the optics of all scalars that errors of position and scalar can reach
+// (optics_between), and by the range of its possible lengths.
 #include "selftest/layered_pieces.h"
 
 #include <algorithm>
@@ -14,7 +17,7 @@ namespace {
 
 struct LayerRun {
     std::size_t layer = 0;
-    Interval parameters;
+    Interval parameters;  // of the ray
 };
 
 // Returns the pieces of a ray in single layers, nearest first, over the interval `part`.
@@ -258,6 +261,8 @@ std::vector<PieceBounds> tet_pieces(const LayeredBox& box,
     return pieces;
 }
 
+// With gradient g, unit normal n and smallest gradient s, the weight w is g^2 / (g^2 + s^2). The
+// factor is 1 - w + w (ambient + diffuse * the sum of |n . l| times colour over the lights l).
 OneGradientLight::OneGradientLight(const Lighting& lighting, const LayeredBox& box,
                                    const View::Ray& ray) {
     const glm::dvec3& edge = box.edges[2];

@@ -110,7 +110,6 @@ MeshData islands(double size) {
     return tets_of(corners);
 }
 
-// Makes a box of 27 cubes without the middle one.
 MeshData with_hole() {
     LayeredBox box;
     box.samples = {0, .25, .5, 1};

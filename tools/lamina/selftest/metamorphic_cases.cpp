@@ -22,7 +22,6 @@ SelftestScene base_scene(const std::string& about = "") {
     return scene;
 }
 
-// Moves the whole world: places and directions of the box and of the camera.
 template <typename Point, typename Direction>
 void move_world(SelftestScene& scene, const Point& point, const Direction& direction) {
     scene.box.corner = point(scene.box.corner);

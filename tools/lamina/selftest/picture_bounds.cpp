@@ -181,6 +181,7 @@ PictureBounds all_pixels(const Scene& scene, const Pixel& pixel) {
     return picture;
 }
 
+// Collects the Fit of a picture from its pixels and channels, one after the other.
 class Judge {
   public:
     explicit Judge(int width) : width_(width) {}

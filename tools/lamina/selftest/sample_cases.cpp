@@ -23,7 +23,7 @@ struct CellScene {
     std::string name, about;
     bool saddle = false;  // the scalar is x y; otherwise it is x y z
     TransferFunction transfer_function;
-    double opacity = 0;
+    double opacity = 0;  // exact opacity of the ray
     // Change of optical depth per unit of error of the scalar.
     double depth_per_scalar = 0;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extreme views: angles, distances, eyes on and in the box, pictures of one pixel and of one row.
+// Extreme views: angles, distances, eyes on and in the box, pictures of one pixel and of one row;
+// clips; and scenes of many slabs, whose sums must not drift.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -181,8 +182,6 @@ std::vector<SelftestCase> clip_cases() {
         traces_and({"slice post float32", "slice preintegrated float32", "slice exact float32",
                     "project float32", "project analytic float32"}));
 }
-
-// Scenes of many slabs, whose sums must not drift.
 
 std::vector<SelftestCase> depth_cases() {
     std::vector<SelftestCase> cases;
