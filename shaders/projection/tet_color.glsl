@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Returns associated colour and opacity of the segment of a fragment's ray inside its tet, computed as SOURCE says.
+// TABLE, CUT_TABLE: looks it up in a pre-integration table, whose nodes are equidistant or lie at the transfer
+// function's points. PARTS: the cell fragment lies in one interval of the transfer function, so opacity has a closed
+// form and colour takes one look-up. ANALYTIC: integrates interval by interval. MEAN, VERTICES: see below.
 #include "optics/opacity.glsl"
 #ifdef LIT
 #include "projection/light_along.glsl"

@@ -15,16 +15,14 @@
 
 namespace lamina::testing {
 
-// An array of data, as a file holds it.
 struct TestArray {
     std::string name, type;  // type: a name of VTK XML files, "Float32"
     int components = 1;
     std::vector<double> values;
 };
 
-// A cell of the grid, with the type number of VTK.
 struct TestCell {
-    int type = 10;
+    int type = 10;  // cell type of VTK; 10: tetrahedron
     std::vector<int> corners;
 };
 

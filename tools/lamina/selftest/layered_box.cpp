@@ -38,8 +38,7 @@ std::int32_t add_point(MeshData& mesh, const LayeredBox& box, const glm::dvec3& 
 class Random {
   public:
     explicit Random(std::uint64_t seed) : bits_(seed) {}
-    // Returns a number in [0, 1).
-    double uniform() { return static_cast<double>(bits_.next() >> 11) * 0x1p-53; }
+    double uniform() { return static_cast<double>(bits_.next() >> 11) * 0x1p-53; }  // in [0, 1)
     std::size_t below(std::size_t count) {
         return static_cast<std::size_t>(uniform() * static_cast<double>(count));
     }
