@@ -13,7 +13,11 @@
 
 LAMINA_SIMD_BEGIN
 
-// Composites slabs onto a vector of pixels, twin of shaders/slicing/slab.frag.
+// Composites slabs onto the pixels of a group of packets, as shaders/slicing/slab.frag does:
+//   for each brick, each block of slabs in the plan's order, and each packet:
+//       compute the optical depths and colours of the slabs that may be visible
+//       for each of these slabs: composite it onto the pixels, rounded as the target needs
+// `depth_scale` multiplies optical depths; `span`: the slabs; `opacity_only`: alpha alone is drawn.
 class SlabBlender {
   public:
     SlabBlender(const CpuSlabs& slabs, const TargetBlend& target, const SampleSpan& span,
@@ -35,7 +39,6 @@ class SlabBlender {
         }
     }
 
-    // Composites the slabs onto the packets of a group; if opacity_only, onto their alpha alone.
     void composite(const TileGrid::Tile& area, std::size_t group, Pixels* pixels) {
         for (const CpuBrickView& brick : slabs_.bricks) {
             rays_.set_pixels(slabs_.rays, brick, area, group);

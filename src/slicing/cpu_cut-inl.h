@@ -33,7 +33,7 @@ struct CutSegment {
     Int place;
 };
 struct LitCutSegment : CutSegment {
-    Float longest;  // largest extent of a piece, 0 .. 1; add_piece() adapts it
+    Float longest;  // max extent of the next piece in t, 0 .. 1; add_piece() adapts it
     GradientLanes gradient;
 };
 
@@ -88,7 +88,6 @@ class CutSegments {
         RootLanes root;
     };
 
-    // Composites the next piece of each segment.
     template <Lookup kind, bool curved, bool first>
     void composite_next_pieces(const CpuTransfer& transfer, bool colored, CellSegments& all) {
         constexpr std::size_t step = Float::lanes;
@@ -311,7 +310,7 @@ class CutSegments {
             done.color[channel] += interval.color(channel, weight, seen);
     }
 
-    // Composites lit pieces, except in lanes whose light bends too much; these it returns.
+    // Composites lit pieces. Returns the lanes whose light bends too much; they stay unchanged.
     template <bool curved>
     LAMINA_INLINE FloatMask composite_lit(const IntervalLanes<curved>& interval,
                                           const PieceOptics<curved>& piece, Float extent,

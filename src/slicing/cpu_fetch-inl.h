@@ -72,7 +72,6 @@ LAMINA_INLINE void copy_pairs(const std::byte* from, std::size_t row, std::size_
     std::memcpy(&pairs[3][i], from + slice + row, sizeof(Pair));
 }
 
-// Fetches pairs as fetch_pairs() does, for a brick in pages.
 template <class Pair, std::size_t size>
 inline LAMINA_NOINLINE void fetch_paged_pairs(const CpuPages& pages, const std::int32_t* indices,
                                               std::size_t count, Pair (&pairs)[4][size]) {
@@ -96,7 +95,6 @@ struct Corners {
     Float lower[4], upper[4];  // at x and at x + 1
 };
 
-// Returns the value of the lowest byte of each word.
 LAMINA_INLINE Float low_byte(Word v) {
     return to_float(bits_as<Int>(v & 0xffu));
 }

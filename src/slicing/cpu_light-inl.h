@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds light to segments (docs/numerics.md, section 10.4; numbers in brackets are equations there).
 //
-//   g(t) = the gradient along the segment, a cubic on each axis, of the corners' gradients (9.1)
-//   at the three nodes of Gauss' rule: the change of colour and the highlight there (10.2)
-//   add both, weighted by the visible opacity there; the weights add up to the piece's
-//   return the largest bend: the rule may miss kinks, and highlights between the nodes
+//   g(t) = the gradient along the segment: on each axis a cubic (9.1) of the corners' gradients
+//   for each of the three nodes of Gauss' rule: the change of colour and the highlight there (10.2)
+//   add both to the colour, weighted by the visible opacity at the node
+//   return the bend: the second difference of light over the nodes, or more if kinks or highlights
+//       may lie between the nodes; the caller cuts pieces that bend too much
 #if defined(LAMINA_SLICING_CPU_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_LIGHT_INL_H_
 #undef LAMINA_SLICING_CPU_LIGHT_INL_H_
@@ -139,8 +140,8 @@ LAMINA_INLINE void take_upper(std::size_t axis, FloatMask lanes, Corners& corner
     }
 }
 
-// Drops the lower corners where rays run beyond the last samples (`cell` axes) or along a face:
-// only the upper ones count there, and adding and subtracting long ones would lose all digits.
+// Replaces lower corners by upper ones on axes on which a ray stays at place 1, in a face or beyond
+// the last samples. Their weight is 0, but a long gradient there would cost the others' digits.
 LAMINA_INLINE void leave_out_lower(const Float (&place)[3], const Float (&change)[3],
                                    Corners (&corners)[3]) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -197,8 +198,8 @@ LAMINA_INLINE GradientLanes set_gradients(const CpuBrick& brick, FloatMask membe
     return lanes;
 }
 
-// Returns, as a bend, a bound on highlights and changes of light between the nodes of Gauss' rule
-// on the piece of `extent` from `at` on. `middle_gradient`: at the middle node.
+// Returns a bound on light that Gauss' rule may miss between its nodes, expressed as a bend. The
+// piece reaches from t = at to at + extent; `middle_gradient` is the gradient at its middle node.
 LAMINA_INLINE Float hidden_bend(const CpuLight& light, const GradientLanes& gradient,
                                 const Float (&middle_gradient)[3], Float at, Float extent) {
     const Float half = 0.5f * extent, middle = at + half;
@@ -225,10 +226,10 @@ LAMINA_INLINE CubicLanes component_along(const GradientLanes& gradient,
     return component;
 }
 
-// Returns a bound on the error of the rule with three nodes at kinks, expressed as a bend. A kink
-// is where the gradient is perpendicular to a light. In the middle of a piece it costs .045 of the
-// bend. At k of the piece's length from an end, k up to .5, it costs up to .113 of the cosine at
-// that end: k of the cosine if k < .113, which no node sees, and less beyond.
+// Returns a bound, as a bend, on the error of the rule with three nodes at kinks. Light has a kink
+// if the gradient becomes perpendicular to its direction. A kink in the middle of a piece causes an
+// error of .045 of the bend. A kink near an end causes up to .113 of the cosine at that end,
+// because no node lies within .113 of the piece's length from it.
 LAMINA_INLINE Float hidden_kinks(const CpuLight& light, const GradientLanes& gradient, Float at,
                                  Float extent) {
     const Float ends[2] = {at, at + extent};
@@ -260,7 +261,7 @@ LAMINA_INLINE Float hidden_kinks(const CpuLight& light, const GradientLanes& gra
     return missed * light.diffuse * most;
 }
 
-// The piece of a segment from t = at to at + extent, or all of it.
+// The piece of a segment from t = at to at + extent, with its optical depth and opacity.
 template <bool curved>
 struct LitPiece {
     const PieceOptics<curved>& piece;
@@ -268,8 +269,8 @@ struct LitPiece {
     Float at, extent, depth, opacity;
 };
 
-// Adds light to the piece's colour by Gauss' rule with three nodes. Returns how much the light
-// bends from node to node, or more if the rule may miss something: what bends() judges.
+// Adds light to the piece's colour by Gauss' rule with three nodes. Returns the bend, which bends()
+// compares with its limits.
 template <std::size_t channels, bool curved>
 LAMINA_INLINE Float add_light_of(const CpuLight& light, const GradientLanes& gradient,
                                  const LitPiece<curved>& lit, Float (&color)[3]) {

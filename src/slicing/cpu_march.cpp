@@ -19,7 +19,10 @@ struct NodeSum {
     Float depth;
 };
 
-// Computes the pictures of a tree whose nodes are floats, group of packets by group.
+// Evaluates a compositing tree whose nodes are floats, for one group of packets at a time:
+//   leaf: composite the slabs that may be visible, or the cells, front to back, brick by brick;
+//         end rays that have become opaque
+//   inner node: composite the children front to back, each rounded as its image would store it
 class Marcher {
   public:
     Marcher(const CpuSlabs& slabs, const TreeShape& shape, const TileGrid::Tile& area)
@@ -71,8 +74,8 @@ class Marcher {
             sum.color[channel] += weight * image.color[channel];
     }
 
-    // Returns what a node reads of its child's image: optical depth and colour, not associated,
-    // rounded to the image's format.
+    // Returns a child as its image stores it, for its parent: optical depth and colour that is not
+    // associated, both rounded to the image's format. `samples`: number of the child's slabs.
     NodeSum stored(const NodeSum& child, int samples) const {
         const TreePlan& tree = *plan_.tree;
         const float share = static_cast<float>(samples) / static_cast<float>(shape_.samples());
@@ -115,8 +118,8 @@ class Marcher {
         Float64 color[3], depth, transmittance;
     };
 
-    // Composites all slabs of a leaf. Blocks are counted from its first slab, whichever slabs are
-    // wanted, so that pictures do not depend on which ones are.
+    // Composites all slabs of a leaf. Blocks count from the leaf's first slab whichever slabs are
+    // wanted, so that rounding does not depend on these.
     void march(const SampleSpan& leaf, NodeSum* sums) {
         LeafSum leaves[group_packets];
         for (LeafSum& sum : leaves) sum = {{0, 0, 0}, 0, 1};
@@ -177,8 +180,7 @@ class Marcher {
         segments_ += cells.segments() - before;
     }
 
-    // Sets the wanted slabs of a block; ranges of slabs in constant regions become one slab
-    // each.
+    // Sets the wanted slabs of a block; each range in a constant region becomes one slab.
     void set_block(const CpuBrickView& brick, std::size_t packet, int number) {
         const PacketRays& rays = rays_.packets[packet];
         const BlockMask constant = rays_.constant(slabs_, number, block_.wanted);

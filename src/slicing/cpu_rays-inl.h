@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes viewing rays of a vector of pixels in double precision, as shaders/slicing/ray.glsl.
+// Computes a vector of viewing rays in double precision, as shaders/slicing/ray.glsl does.
 //
-//   origin, direction = of each pixel, along the axes of the brick's samples; direction a depth
-//   enter, leave      = the depths at which the ray meets the planes of clips, then the box
-//   slabs             = those between the least enter and the largest leave of a packet
+//   origin, direction = each pixel's ray in the brick's index space; direction per unit of depth
+//   enter, leave      = the depths between which the ray is inside the clip planes and the box
+//   slabs             = the slabs from the min enter to the max leave of the packet
 #if defined(LAMINA_SLICING_CPU_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_RAYS_INL_H_
 #undef LAMINA_SLICING_CPU_RAYS_INL_H_
@@ -25,11 +25,11 @@ struct DepthSpan {
 struct PacketRays {
     Float64 origin[3], direction[3];
     Float64 length_per_depth;  // world units
-    DepthSpan box, drawn;      // in the brick's boxes; empty for pixels outside the image
-    DepthSpan share;           // in the brick's share, if it has one
+    DepthSpan box, drawn;      // in CpuBrickView's boxes; empty for pixels outside the image
+    DepthSpan share;           // in CpuBrickView::share, if set
     Float64 enter, leave;      // enter = leave if the ray misses the box or the slabs
-    Float direction_float[3], length_float;
-    int first_slab, end_slab;  // slabs that may be visible; first >= end if there are none
+    Float direction_float[3], length_float;  // direction and length_per_depth, rounded
+    int first_slab, end_slab;  // slabs that may be visible; first_slab >= end_slab: none
 };
 
 // Sets the unit vector to the eye along each ray, along the grid's axes.
@@ -43,7 +43,7 @@ LAMINA_INLINE void set_eye(const CpuLight& light, const PacketRays& rays, Float 
 // Directions, in voxels per depth, below which a ray runs along a plane and never crosses it.
 constexpr double least_direction = 1e-20;
 
-// Returns a direction that can be divided by: `along` replaces those that are too small.
+// Returns a direction to divide by: if its size is below least_direction, `along` replaces it.
 LAMINA_INLINE Float64 crossing_direction(Float64 direction, Float64 along = least_direction) {
     return select(abs(direction) < least_direction, along, direction);
 }
@@ -125,7 +125,7 @@ LAMINA_INLINE PacketRays packet_rays(const CpuRays& frame, const CpuBrickView& b
     return rays;
 }
 
-// Clips rays to slabs first .. end - 1; first_slab and end_slab: those that touch the drawn box.
+// Clips rays to slabs first .. end - 1. Sets first_slab and end_slab to those near the drawn box.
 LAMINA_INLINE void set_span(const CpuRays& frame, int first, int end, PacketRays& rays) {
     const Float64 front = first * frame.slab_thickness, back = end * frame.slab_thickness;
     const DepthSpan seen{max(front, rays.drawn.enter), min(back, rays.drawn.leave)};
@@ -166,10 +166,10 @@ constexpr std::size_t packet_place(std::size_t group, std::size_t packet) {
 struct GroupRays {
     PacketRays packets[group_packets];
     CpuBounds bounds;
-    // Sets of slabs, counted from `origin`: those that may be visible, and those that are not all
-    // constant. Bounds for the group: sets for each block would cost more than they save.
+    // Sets of slabs, counted from `origin`: slabs that may be visible, and slabs that do not lie in
+    // constant bricks alone. The whole group shares them: sets for each block would not pay off.
     SlabMask shown, varied;
-    int origin, first_slab, end_slab;  // slabs of all packets together
+    int origin, first_slab, end_slab;  // the sets' first slab; slabs that any packet crosses
 
     LAMINA_INLINE void set_pixels(const CpuRays& frame, const CpuBrickView& brick,
                                   const TileGrid::Tile& area, std::size_t group) {

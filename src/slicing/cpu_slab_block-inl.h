@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A block of slabs along the rays of a vector of pixels, whose segments cpu_slab_segments.cpp
-// computes.
+// A block of slabs along a vector of rays; cpu_slab_segments.cpp computes its segments.
 #if defined(LAMINA_SLICING_CPU_SLAB_BLOCK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_SLAB_BLOCK_INL_H_
 #undef LAMINA_SLICING_CPU_SLAB_BLOCK_INL_H_
@@ -12,9 +11,8 @@
 
 LAMINA_SIMD_BEGIN
 
-// The values of a block, a vector for each slab. Slab i is slab first_slab + i of the view. Only
-// `wanted` slabs are computed, range by range; from .. end - 1 is the present range of
-// consecutive ones.
+// The values of a block: a vector for each slab. Slab i is slab first_slab + i of the view. Only
+// `wanted` slabs are computed; from .. end - 1 is the range of consecutive ones in work.
 struct SlabBlock {
     static constexpr std::size_t size = block_slabs * most_lanes;
     alignas(64) float edge_scalars[size + most_lanes];  // at the boundaries of slabs
@@ -22,13 +20,13 @@ struct SlabBlock {
     alignas(64) float lengths[size];                    // world units
     alignas(64) float depths[size];                     // optical depths
     alignas(64) float colors[3][size];                  // not used if the plan has a single colour
-    // Front parts (optics/segment_integral.h) of a segment's colour and opacity, divided by its
-    // opacity, with which the light at the segment's front counts.
+    // Weights of the light at a segment's front: the front parts (optics/segment_integral.h) of the
+    // segment's colour and of its opacity, both divided by its opacity.
     alignas(64) float front_colors[3][size];
     alignas(64) float front_shares[size];
     alignas(64) float edges[size + most_lanes];  // depths of boundaries, from the block's front on
     alignas(64) float middles[size];             // depths of the slabs' middles
-    // Optical depths for codes; before the extinction is known, lengths.
+    // Optical depths in double precision, for codes; world lengths until extinction is known.
     alignas(64) double precise_depths[size];
     int first_slab, from, end;
     BlockMask wanted;
@@ -49,7 +47,7 @@ inline void set_precise_depths(SlabBlock& block) {
 }
 
 // Sets optical depths and colours of wanted slabs; if `precise`, precise_depths, too. Returns the
-// number of segments with a length.
+// number of segments longer than 0.
 std::int64_t set_segments(const CpuSlabs& slabs, const CpuBrickView& brick,
                           const PacketRays& packet, bool colored, bool precise, SlabBlock& block);
 

@@ -10,13 +10,17 @@
 #include "slicing/cpu_light-inl.h"
 #include "slicing/cpu_slab_block-inl.h"
 
-// Colour and optical depth of the segments of a block of slabs, as shaders/slicing/segment.glsl
-// computes them. Each stage is done for all slabs, so that many are computed at a time. Targets
-// with codes of n bits need optical depths in double precision (SlabBlock::precise_depths), in the
-// order of the shaders' operations, so that codes are the same.
+// Computes colour and optical depth of the segments of a block of slabs, as
+// shaders/slicing/segment.glsl does. Each step is done for a whole range of slabs:
+//   1. Clip each slab to the ray's part inside the box: middle, boundaries and length.
+//   2. Sample the scalar in the middle and, if the plan pre-integrates, at the boundaries.
+//   3. Classify the middle, or integrate from boundary to boundary by the table or in closed form.
+//   4. Light the colours of visible slabs by the gradients at these points.
+// Targets with codes of n bits need optical depths in double precision (SlabBlock::precise_depths),
+// computed by the shaders' operations in the shaders' order, so that codes are equal.
 LAMINA_SIMD_BEGIN
 
-// Calls visit(i, effect of light at point_at(i)) for i = first .. end - 1, a few points at a time.
+// Calls visit(i, light's effect at point_at(i)) for i = first .. end - 1, a few at a time.
 template <std::size_t channels, PointKind kind, class PointAt, class Visit>
 LAMINA_INLINE void visit_light(const CpuLight& light, const CpuBrick& brick,
                                const Float (&to_eye)[3], int first, int end,
@@ -69,8 +73,8 @@ LAMINA_INLINE void light_ends(const EffectLanes<channels>& front, const EffectLa
     }
 }
 
-// Lights slabs of the present range if shows(i), at middle(i) or, if the plan pre-integrates, at
-// both ends (docs/numerics.md, section 10). edge(i): the point on a slab's front.
+// Lights each slab i of the present range for which shows(i) is true, at middle(i) or, if the plan
+// pre-integrates, at both ends (docs/numerics.md, section 10.7). edge(i): the slab's front point.
 template <std::size_t channels, PointKind kind, class Middle, class Edge, class Shows>
 LAMINA_INLINE void light_slabs(const CpuSlabs& slabs, const CpuBrick& brick, const PacketRays& rays,
                                const Middle& middle, const Edge& edge, const Shows& shows,
@@ -174,9 +178,8 @@ LAMINA_INLINE void store_segment(const LitSum& sum, bool colored, int slab, Slab
     store(sum.front_share, block.front_shares + at(slab));
 }
 
-// Integrates the present range by the table, a few slabs at a time, so that many entries are
-// looked up together. A segment is invisible if nothing shows between its least and its largest
-// scalar.
+// Integrates the present range by the table, several slabs at a time, so that their look-ups
+// overlap. A segment is invisible if extinction is 0 from its min to its max scalar.
 template <Lookup kind, bool lit>
 LAMINA_INLINE void integrate_by_table(const CpuTransfer& transfer, bool colored,
                                       bool nan_transparent, SlabBlock& block) {
@@ -226,7 +229,7 @@ LAMINA_INLINE void integrate_by_table(const CpuTransfer& transfer, bool colored,
     }
 }
 
-// Integrates the slabs of the present range, pre-integrated. Lit plans always have a table.
+// Integrates the slabs of the present range from boundary to boundary. Lit plans have a table.
 template <Lookup kind>
 LAMINA_INLINE void integrate_range(const CpuTransfer& transfer, bool colored, const SlicePlan& plan,
                                    SlabBlock& block) {
@@ -243,8 +246,8 @@ LAMINA_INLINE void integrate_range(const CpuTransfer& transfer, bool colored, co
 
 // Rays whose depths count from the front of a block.
 struct BlockRays {
-    Float base[3];
-    Float enter, leave;
+    Float base[3];       // point at depth 0, in the brick's index space
+    Float enter, leave;  // depths between which the ray is in the box
 };
 
 LAMINA_INLINE BlockRays block_rays(const CpuRays& frame, const PacketRays& rays, int first_slab) {
@@ -278,8 +281,7 @@ LAMINA_INLINE Points point_at(const PacketRays& rays, const Float64& depth) {
     return point;
 }
 
-// Tells whether rays stay in the box and between the first and last samples in the present
-// interval.
+// Tells whether all rays are in the box, and among the brick's samples, in the whole present range.
 LAMINA_INLINE bool is_inside(const CpuRays& frame, const CpuBrick& brick, const SlabBlock& block,
                              const BlockRays& rays, const PacketRays& packet) {
     const Float front(frame.edges[static_cast<std::size_t>(block.from)]);
@@ -293,8 +295,8 @@ LAMINA_INLINE bool is_inside(const CpuRays& frame, const CpuBrick& brick, const 
     return all_of(inside);
 }
 
-// Sets lengths and, if rays are not `inside` throughout (is_inside()), the depths of boundaries and
-// middles. Returns the number of segments that have a length.
+// Sets lengths and, unless rays are `inside` throughout (is_inside()), the depths of boundaries and
+// middles. Returns the number of segments longer than 0.
 LAMINA_INLINE std::int64_t set_lengths(const CpuRays& frame, const BlockRays& rays,
                                        Float length_per_depth, bool inside, SlabBlock& block) {
     if (inside) {
@@ -320,7 +322,7 @@ LAMINA_INLINE std::int64_t set_lengths(const CpuRays& frame, const BlockRays& ra
     return segments;
 }
 
-// Sets precise_depths to world lengths, `lengths` to them rounded. Returns how many are not 0.
+// Sets precise_depths and, rounded, `lengths` to world lengths. Returns how many are above 0.
 LAMINA_INLINE std::int64_t set_precise_lengths(const CpuRays& frame, const PacketRays& rays,
                                                SlabBlock& block) {
     std::int64_t segments = 0;
@@ -338,7 +340,7 @@ LAMINA_INLINE std::int64_t set_precise_lengths(const CpuRays& frame, const Packe
 }
 
 // Drops segments whose middles lie in another renderer's share: their length becomes 0. Renderers
-// compute the same middles and crossings of shares' planes, so each segment is drawn once.
+// compute equal middles and equal crossings of shares' planes, so each segment is drawn once.
 LAMINA_INLINE void keep_share(const CpuRays& frame, const PacketRays& packet, bool inside,
                               SlabBlock& block) {
     const double front = block.first_slab * frame.slab_thickness;
@@ -387,7 +389,7 @@ LAMINA_INLINE void with_precise_points(const CpuRays& frame, const PacketRays& r
     use(std::integral_constant<PointKind, PointKind::exact>(), middle, edge);
 }
 
-// Set a slab's optical depth. In double precision, precise_depths holds the length before.
+// Set a slab's optical depth. Until then precise_depths holds the slab's length.
 LAMINA_INLINE void set_depth(Float extinction, int slab, SlabBlock& block) {
     store(extinction * load<Float>(block.lengths + at(slab)), block.depths + at(slab));
 }
@@ -432,7 +434,7 @@ LAMINA_INLINE void set_constant(const CpuSlabs& slabs, Number extinction, SlabBl
     }
 }
 
-// Sets depths and colours of the present range. Returns the number of segments with a length.
+// Sets depths and colours of the present range. Returns the number of segments longer than 0.
 template <bool precise>
 std::int64_t set_range(const CpuSlabs& slabs, const CpuBrickView& view, const PacketRays& packet,
                        bool colored, SlabBlock& block) {
@@ -460,7 +462,6 @@ std::int64_t set_range(const CpuSlabs& slabs, const CpuBrickView& view, const Pa
         else
             with_points(slabs.rays, rays, packet, inside, block, use);
     };
-    // The scalars in the middles of slabs and, if the plan pre-integrates, at their boundaries.
     with([&](auto kind, const auto& middle, const auto& edge) LAMINA_LAMBDA {
         const bool hardware = plan.sampling == VolumeSampling::hardware;
         sample_points<decltype(kind)::value>(brick, hardware, block.from, block.end, middle,

@@ -74,6 +74,10 @@ bool CpuBounds::shows(const OccupiedBricks& bricks, const CpuRays& rays, int fir
     return bricks.any_in(glm::min(near, far) - reach, glm::max(near, far) + reach);
 }
 
+// Decides slabs by the bricks around the middle ray at the front of slab `first`:
+//   in a visible brick: slabs are shown up to where the middle ray leaves the brick;
+//   in an empty box that holds all rays: slabs are hidden up to where the first ray leaves the box;
+//   otherwise: `tested_slabs` slabs are shown if the box around their rays meets a visible brick.
 CpuBounds::SlabRange CpuBounds::next_range(const OccupiedBricks& bricks, const CpuRays& rays,
                                            int first, int end) const {
     const double thickness = rays.slab_thickness;

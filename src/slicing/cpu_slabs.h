@@ -26,14 +26,14 @@ struct CellMap {
     SparseBytes kinds;
 };
 
-// `occupied`, `varied` (of ConstantBricks): null if empty or constant bricks are not used.
+// `occupied`: null if rays do not leap over empty bricks; `varied`: null if not over constant ones.
 CellMap make_cell_map(const OccupiedBricks* occupied, const OccupiedBricks* varied);
 
-// Slabs of a block, as many as BlockMask has bits. Coordinates in it are floats from its front on.
+// Number of slabs in a block: the bits of BlockMask. A block's depths are floats from its front on.
 inline constexpr int block_slabs = 32;
 
-// The viewing rays of all pixels, as the uniforms of shaders/slicing/ray.glsl describe them. Points
-// are in the index space of a brick, and depth counts from the front of the nearest slab.
+// The viewing rays of all pixels, as the uniforms of shaders/slicing/ray.glsl: points in a brick's
+// index space, directions in voxels per depth, and depths from the front of the nearest slab on.
 struct CpuRays {
     glm::dvec3 origin_column{0}, origin_row{0};  // change per pixel to the right and downwards
     glm::dvec3 direction_middle{0}, direction_column{0}, direction_row{0};
@@ -49,13 +49,13 @@ struct CpuRays {
 // A brick of the plan as one view sees it.
 struct CpuBrickView {
     CpuBrick brick;
-    glm::dvec3 origin_middle{0};          // of the ray through the image's middle
-    IndexBox box, drawn;                  // in the brick's index space
+    glm::dvec3 origin_middle{0};          // origin of the ray through the image's middle
+    IndexBox box, drawn;                  // the brick and its drawn part, in its index space
     glm::dvec3 last_face = no_last_face;  // of `box` (slicing/slab_geometry.h)
     std::vector<IndexPlane> clip;
     glm::dvec3 first{0};  // the volume's sample at the brick's origin
     double margin = 0;    // largest error of a point in float, in voxels
-    // If slabs are not clipped to SlicePlan::share: only segments with middles in here are drawn.
+    // Set if slabs are drawn for a SlicePlan::share: only segments whose middles lie in it show.
     std::optional<IndexBox> share;
 };
 
@@ -86,8 +86,7 @@ inline BlockMask block_mask(int first, int end) {
     return ~BlockMask{0} >> (block_slabs - (end - first)) << first;
 }
 
-// Calls body(first, end) for the ranges of consecutive bits first .. end - 1, from the lowest
-// on.
+// Calls body(first, end) for each range of consecutive bits first .. end - 1, lowest range first.
 template <class Body>
 LAMINA_INLINE void for_each_range(BlockMask mask, const Body& body) {
     while (mask != 0) {
@@ -98,7 +97,7 @@ LAMINA_INLINE void for_each_range(BlockMask mask, const Body& body) {
     }
 }
 
-// Calls body(first, end) for the same ranges, from the highest to the lowest.
+// Calls body(first, end) for each range of consecutive bits first .. end - 1, highest range first.
 template <class Body>
 LAMINA_INLINE void for_each_range_backwards(BlockMask mask, const Body& body) {
     while (mask != 0) {
@@ -140,8 +139,8 @@ class CpuBounds {
     // `column`, `row`: the first of edge x edge pixels.
     CpuBounds(const CpuRays& rays, const CpuBrickView& brick, int column, int row, int edge);
 
-    // Calls found(first, end) for the ranges of consecutive slabs among first .. end - 1 in
-    // which a ray may come near an occupied brick, nearest first.
+    // Calls found(first, end) for ranges of slabs among first .. end - 1 in which a ray may come
+    // near an occupied brick, nearest first.
     template <class Found>
     void for_each_shown(const OccupiedBricks& bricks, const CpuRays& rays, int first, int end,
                         const Found& found) const {
@@ -161,7 +160,7 @@ class CpuBounds {
         int end;
         bool shown;
     };
-    // Returns the longest range of slabs from `first` on that one test decides.
+    // Returns a range of slabs, from `first` on, that one test decides.
     SlabRange next_range(const OccupiedBricks& bricks, const CpuRays& rays, int first,
                          int end) const;
     // Tells whether a ray may come near an occupied brick in slabs first .. end - 1.

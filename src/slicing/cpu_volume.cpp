@@ -19,7 +19,7 @@
 namespace lamina {
 namespace {
 
-// Bytes of the memory limit that pages leave free, for pictures and their results.
+// Bytes of the memory limit that pages leave free for pictures.
 constexpr std::uint64_t kept_free = 50'000'000;
 
 constexpr std::size_t page_samples = static_cast<std::size_t>(BrickCache::sample_count);
@@ -114,7 +114,7 @@ CpuVolume::CpuVolume(const Volume& volume, const ValueRange& range, const SliceP
     if (!volume.in_memory()) page();
 }
 
-// Sets what normalises codes: as in OpenGL, code / largest; int16 is shifted to begin at 0.
+// Sets the factors that normalise codes. As in OpenGL, codes of int16 are shifted to begin at 0.
 void CpuVolume::normalise(const ValueRange& range, CpuBrick& brick) const {
     if (brick.layout == CpuLayout::floats) return;
     const double largest = volume_.type() == SampleType::uint8 ? 255 : 65535;

@@ -87,7 +87,6 @@ void upload_brick(const Volume& volume, const ValueRange& range, bool as_float,
     });
 }
 
-// Computes and uploads the gradients of a brick layer by layer.
 gl::Texture upload_gradients(const Volume& volume, const TextureBrick& brick, Progress& progress) {
     const auto row_size = static_cast<std::size_t>(brick.size[0]);
     gl::Texture texture =

@@ -56,7 +56,7 @@ class GlSlabSource {
                  const Facts& facts, const SlicePlan& plan,
                  std::shared_ptr<const VolumeTextures> ready);
 
-    // Replaces the plan, for further frames, by one that differs only in what belongs to one view.
+    // Replaces the plan by that of another view, which differs only in what belongs to one view.
     void take_plan(const SlicePlan& plan);
     gl::Defines defines() const;
 
@@ -89,7 +89,7 @@ class GlSlabSource {
     std::optional<GlTransferTables> tables_;  // set if scalars are fetched
     std::shared_ptr<const VolumeTextures> volume_;
     SampleCodes codes_;
-    std::optional<gl::Texture> distances_;  // of OccupiedBricks, set if a plan leaps by them
+    std::optional<gl::Texture> distances_;  // OccupiedBricks::distance, if a plan needs it
     double upload_ms_ = 0, table_ms_ = 0;
 };
 

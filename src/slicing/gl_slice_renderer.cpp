@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// Draws a frame of a volume with OpenGL, as slice_renderer.cpp does on the CPU:
+//   1. Cut the boxes of the bricks, in visibility order, into slabs; each covers a convex polygon.
+//   2. Draw the polygons. For each pixel slab.frag computes the colour and opacity of its segment.
+//   3. Blend the fragments onto the target in the plan's order.
+// With a compositing tree, gl_shader_tree.h or GlFixedTree composites the pictures of the leaves.
 #include "slicing/gl_slice_renderer.h"
 
 #include <glad/gl.h>

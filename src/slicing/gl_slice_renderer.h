@@ -49,7 +49,7 @@ class GlSlabPass : public TreeLeaves {
 void upload_vertices(const std::vector<SlabVertex>& triangles, gl::Buffer& buffer,
                      gl::VertexArray& vertex_array);
 
-// Draws a volume as the plan says, in the current OpenGL context, which must outlive the renderer.
+// Draws a volume (gl_slice_renderer.cpp) in the current OpenGL context, which must outlive it.
 class GlSliceRenderer : public SliceRenderer {
   public:
     // Uploads the volume, builds the tables and compiles programs; errors of OpenGL are Errors.

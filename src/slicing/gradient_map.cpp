@@ -13,7 +13,7 @@
 namespace lamina {
 namespace {
 
-// Lengths beyond which nothing or everything is lit, whatever Lighting::least_gradient asks for.
+// Lengths below which nothing and above which everything is lit, for any smallest_gradient.
 constexpr double least_length = 1e-280, largest_length = 1e280;
 constexpr int exponent_bias = 1023, mantissa_bits = 52;  // of doubles
 
@@ -31,7 +31,7 @@ class Differences {
             per_step_[axis] = 1 / glm::length(grid.step[axis]);
     }
 
-    // Returns the gradient at a sample along the grid's axes; beyond the volume the border's.
+    // Returns the gradient along the grid's axes at a sample; an index outside is clamped first.
     std::array<double, 3> at(std::array<std::int64_t, 3> index) const {
         std::int64_t offset = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -75,7 +75,7 @@ StoredGradient store_gradient(const std::array<double, 3>& gradient) {
     largest = std::min(largest, largest_length);
     const int octave =
         static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> mantissa_bits) - exponent_bias;
-    // So the largest component is 2^14 to 2^15; clamped, as it may round to 2^15, beyond int16.
+    // The largest component becomes 2^14 to 2^15; clamped, as it may round to 2^15, beyond int16.
     const int exponent = octave - 14;
     const double scale = std::bit_cast<double>(static_cast<std::uint64_t>(exponent_bias - exponent)
                                                << mantissa_bits);

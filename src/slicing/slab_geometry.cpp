@@ -14,10 +14,10 @@
 namespace lamina {
 namespace {
 
-// Pixels that pixels_of() adds on each side, against the far smaller roundings to float.
+// Margin of pixels_of() in pixels, far more than the rounding of boxes and rays to float.
 constexpr double box_margin_pixels = 1;
 
-// Share of the farthest corner's depth below which pixels_of() takes a corner as behind the eye.
+// Share of the farthest corner's depth. A nearer corner counts as behind the eye in pixels_of().
 constexpr double nearest_share = 1e-6;
 
 int clamped(double place, int size) {
@@ -75,7 +75,8 @@ void clip_side(Polygon& polygon, Polygon& kept, int axis, double sign, double li
     std::swap(polygon, kept);
 }
 
-// Finds the polygons that slabs of a box cover in the picture.
+// Finds the convex polygon that a slab of a box covers in the picture: the hull of the projected
+// corners of the box's part in the slab, widened by a margin, clipped to the image, and snapped.
 class SlabCutter {
   public:
     SlabCutter(const View& view, const Grid& grid, const IndexBox& box) : view_(view) {
@@ -167,7 +168,6 @@ class SlabCutter {
     Polygon points_, polygon_;
 };
 
-// Appends a convex polygon as a fan of triangles.
 void append_fan(const Polygon& polygon, int slab, std::vector<SlabVertex>& triangles) {
     const auto vertex = [&](std::size_t corner) {
         return SlabVertex{static_cast<float>(polygon[corner].x),

@@ -18,8 +18,8 @@
 
 namespace lamina {
 
-// Returns the box of the volume's index space that a brick of the plan draws: that of its samples
-// and, at the volume's border, everything beyond them.
+// Returns the box, in the volume's index space, that a brick of the plan draws: from its first to
+// its last samples, and beyond them up to the volume's border if the brick reaches the last ones.
 IndexBox box_of(const TextureBrick& brick, const Grid& grid);
 
 // A coordinate beyond all others, the largest float: it says that a box has no last face.
@@ -31,7 +31,7 @@ inline constexpr glm::dvec3 no_last_face{double{std::numeric_limits<float>::max(
 // Rays in a face between two bricks belong to the one that begins there.
 glm::dvec3 last_face_of(const glm::dvec3& end, const glm::dvec3& first, const Grid& grid);
 
-// A row of a brick along x. Its samples begin .. end - 1 are samples of the volume, from number
+// A row of a brick along x. Its samples begin .. end - 1 are samples of the volume, from flat index
 // `first` on; the others repeat the nearest of these.
 struct BrickRow {
     std::size_t first;
@@ -45,7 +45,7 @@ struct BrickRow {
 };
 BrickRow row_of(const TextureBrick& brick, const Grid& grid, std::int64_t y, std::int64_t z);
 
-// Sets `numbers` to bricks' indices, in `order` along every ray; allocates only if it is too small.
+// Sets `numbers` to the bricks' indices, in `order` along every ray. Allocates only if it grows.
 void set_visibility_order(const std::vector<TextureBrick>& bricks, const Grid& grid,
                           const View& view, Order order, std::vector<std::size_t>& numbers);
 
@@ -83,8 +83,8 @@ struct SlabVertex {
 };
 
 // Appends each slab's triangles, in drawing order. They cover every pixel whose ray meets `box`
-// (index space) in the slab, once each, and maybe more: the fragment's own ray decides. `starts`,
-// if given, gets the number of vertices before each slab and, last, of all.
+// (index space) in the slab exactly once, and some more: shaders clip each ray to the box. If
+// `starts` is given, it gets the number of vertices before each slab and, last, after all slabs.
 void append_slab_polygons(const View& view, const Grid& grid, const IndexBox& box,
                           const Slabs& slabs, Order order, std::vector<SlabVertex>& triangles,
                           std::vector<std::size_t>* starts = nullptr);

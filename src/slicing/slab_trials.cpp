@@ -44,7 +44,7 @@ struct TrialLimits {
     // A search ends when the error is at least this share of the goal: in small pictures, and in
     // large ones, whose trials cost more time than fewer slabs save.
     static constexpr double near_aim_of_small = 0.78, near_aim_of_large = 0.6;
-    static constexpr double most_growth = 4;  // slabs of a trial over those of the one before
+    static constexpr double most_growth = 4;  // max ratio of a trial's slabs to those before
     // If twice the slabs leave more than this share of the error, more slabs do not help.
     static constexpr double still_left = 0.7;
     // Errors below this share of the goal do not tell how many slabs are needed.
@@ -65,8 +65,8 @@ struct TrialLimits {
     // The tracer's tolerance as a share of max_error, and limits within which finer is worth it.
     static constexpr double tracer_share = 0.01, finest_tolerance = 1e-8, coarsest_tolerance = 1e-4;
 
-    // Ratios of the finer picture's slabs to those of a trial: with which it is drawn, and down to
-    // which it is used for further trials.
+    // Ratios of the finer picture's slabs to a trial's slabs: the finer picture is drawn with
+    // `finer`, and is used for further trials while the ratio is at least `fine_enough`.
     static constexpr int finer = 3;
     static constexpr double fine_enough = 2;
 };
@@ -75,8 +75,8 @@ double rays_of(const Scene& scene) {
     return static_cast<double>(scene.width) * scene.height;
 }
 
-// Draws and judges pictures with different numbers of slabs and at most `rays` rays. `last`: no
-// search with more rays follows.
+// Draws and judges pictures of up to `most` slabs and `rays` rays. `last`: no search with more rays
+// follows. `ready`: the volume as an earlier search prepared it, or null.
 class SlabTrials {
   public:
     SlabTrials(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks,
@@ -275,7 +275,7 @@ int most_slabs(const Facts& facts) {
                       TrialLimits::fewest_most_slabs, max_slabs / TrialLimits::finer);
 }
 
-// Returns trials of post-classified slabs, if quicker than exact segments within the goal.
+// Returns trials of numbers of slabs quicker than exact segments; empty if none keeps the goal.
 std::vector<SlabTrial> try_quicker(const Scene& asked, const Volume& volume,
                                    const MinMaxBricks& bricks, const Facts& facts,
                                    TableCache& tables) {
@@ -286,7 +286,7 @@ std::vector<SlabTrial> try_quicker(const Scene& asked, const Volume& volume,
     return trials;
 }
 
-// Tells whether texture units' filter may be chosen; not with NaN, which they filter differently.
+// Tells whether texture units' filter may be chosen. They filter NaN differently.
 bool may_filter(const Scene& scene, const Facts& facts, const Capabilities& capabilities) {
     return scene.slice.filter.is_automatic() && capabilities.eight_bit_filter &&
            facts.non_finite == 0 && !facts.constant;

@@ -9,14 +9,14 @@
 
 namespace lamina {
 
-// Measures the error of different numbers of slabs, if the scene's is automatic. Trial pictures,
-// drawn by the engine `cpu` in float32, are compared with the reference tracer. The search ends
-// when the fewest slabs that keep slab_error_goal() are known to some 10 %, or when more slabs do
-// not help or 16 a voxel do not keep the goal; then two a voxel are tried, too. If errors are not
-// of second order, some smaller numbers follow.
+// Measures the error of different numbers of slabs, if the scene's number is automatic. Trial
+// pictures, drawn by the engine `cpu` in float32, are compared with the reference tracer. The
+// search ends when the smallest number that keeps slab_error_goal() is known to some 10 %. It also
+// ends if more slabs do not help, or if 16 a voxel do not keep the goal; then two a voxel are
+// tried. If errors are not of second order, some smaller numbers follow.
 //
-// Pictures of at most 81,920 pixels are traced in every pixel. Larger ones are first searched in a
-// version of 2^13 pixels, then from the number found there in one of at most 2^20: its trials are
+// Pictures of at most 81,920 pixels are traced in every pixel. A larger picture is searched at 2^13
+// pixels first, and then, from the number found there, at up to 2^20 pixels. Those trials are
 // compared with pictures of more slabs, and with the tracer on 12,288 pixels.
 //
 // If "filter" is "auto" and texture units have 8-bit weights, the search is repeated with these,

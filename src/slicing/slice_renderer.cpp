@@ -28,7 +28,7 @@
 namespace lamina {
 namespace {
 
-// Length in voxels of slabs whose visibility is tested together; shorter ones find little more.
+// Length in voxels of the slabs that one test for emptiness covers; shorter runs gain little.
 constexpr double tested_voxels = MinMaxBricks::edge / 4.0;
 
 // Returns by how many voxels a slab is enlarged before it is tested for emptiness: 0.01, plus a

@@ -17,7 +17,7 @@ namespace lamina {
 class CpuVolume;
 class VolumeTextures;
 
-// The volume as a renderer has prepared it. The next renderer uses it if it is what that one needs.
+// The volume as a renderer has prepared it. The next renderer uses it if it has the form needed.
 struct SliceReuse {
     std::shared_ptr<const CpuVolume> tiles;          // of the engine `cpu`
     std::shared_ptr<const VolumeTextures> textures;  // of OpenGL
@@ -31,7 +31,7 @@ class SliceRenderer : public FrameRenderer {
 
 // Makes a renderer that draws a volume as the plan says. The capabilities decide whether it is the
 // engine `cpu` or OpenGL in the current context. The context and the volume must outlive the
-// renderer. `ready`: objects of a renderer of the same volume and capabilities, or none.
+// renderer. `ready`: reusable() of a renderer of the same volume and capabilities, or empty.
 std::unique_ptr<SliceRenderer> make_slice_renderer(const Volume& volume,
                                                    const TransferFunction& transfer_function,
                                                    const Facts& facts, const SlicePlan& plan,
@@ -86,17 +86,17 @@ class CpuSliceRenderer : public SliceRenderer {
     std::vector<char> blank_;  // for each tile 1 if it is known to be clear
     TargetBlend blend_;
     bool prepared_ = false;                    // false if nothing was visible in the first plan
-    std::shared_ptr<const CpuVolume> volume_;  // if not needed here: for another renderer
+    std::shared_ptr<const CpuVolume> volume_;  // kept for another renderer if not needed
     OccupiedBricks occupied_;
     ConstantBricks constant_;
     CellMap cells_;
     bool cells_leave_out_empty_ = false;  // whether cells_ knows empty bricks
     std::optional<CpuTransfer> transfer_;
-    std::vector<std::uint32_t> shown_pages_;  // with something visible, if the volume has pages
+    std::vector<std::uint32_t> shown_pages_;  // pages with visible cells, if the volume has pages
     std::optional<CpuLight> light_;
     CpuSlabs slabs_;
     PixelBox seen_;                   // pixels in which the view may show something
-    std::vector<std::size_t> order_;  // of the bricks
+    std::vector<std::size_t> order_;  // visibility order of bricks
     std::optional<TreeShape> shape_;
     std::optional<CpuFixedTree> fixed_tree_;
     std::atomic<std::int64_t> samples_{0};

@@ -35,7 +35,7 @@ std::vector<std::size_t> bricks_with_points(const MinMaxBricks& bricks,
     return found;
 }
 
-// Counts the rectangles over each pixel: add() stores differences of neighbours, sums() adds up.
+// Counts the rectangles over each pixel: add() changes four corners, sums() adds along both axes.
 class RectangleCounts {
   public:
     RectangleCounts(int width, int height)
@@ -78,7 +78,7 @@ class RectangleCounts {
     std::vector<std::int32_t> counts_;
 };
 
-// Returns a min/max brick's box. Outermost ones have half a voxel more, drawn on `cell` axes.
+// Returns a min/max brick's box, half a voxel larger: `cell` axes draw as much beyond samples.
 IndexBox box_of(const MinMaxBricks& bricks, std::size_t number, const Grid& grid) {
     auto rest = static_cast<std::int64_t>(number);
     glm::dvec3 lower;
@@ -174,7 +174,8 @@ std::vector<float> differences_of(const Image& a, const Image& b) {
     return differences;
 }
 
-// Returns numbers that are larger the fewer bricks cover a pixel, equals at random; 0 if none does.
+// Returns for each pixel 1 / the number of bricks that cover it, times a random factor of 1/2 to 1
+// that parts equal numbers; 0 if no brick covers it.
 std::vector<float> rarity_of(const std::vector<float>& cover, int width) {
     std::vector<float> rarity;
     rarity.reserve(cover.size());

@@ -38,11 +38,11 @@ class TrialTruth {
 
     bool empty() const { return pixels_.empty(); }
     std::int64_t rays() const { return static_cast<std::int64_t>(pixels_.size()); }
-    // Returns the largest error on traced pixels, with the tracer's own estimate, in 1/255.
+    // Returns the max error on traced pixels plus the tracer's error estimate, in units of 1/255.
     double error_of(const Image& picture) const;
 
   private:
-    // Appends, of the pixels that are not in pixels_ yet, those with the largest values above 0.
+    // Appends the `count` pixels with the largest values that are above 0 and not in pixels_ yet.
     void append_unknown(std::size_t count, std::vector<float> values);
     void trace();
 
