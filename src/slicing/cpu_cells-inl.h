@@ -240,7 +240,6 @@ class CellIntegrator {
             store(interval.color(channel, opacity, seen_color), segments_.color[channel] + i);
     }
 
-    // Composites each ray's segments front to back.
     template <bool colored>
     void sum_segments(RaySum* sums) const {
         for (std::size_t packet = 0; packet < packets_; ++packet) sums[packet] = empty_sum();

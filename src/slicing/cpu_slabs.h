@@ -80,7 +80,6 @@ struct CpuSlabs {
 using BlockMask = std::uint32_t;
 static_assert(block_slabs == 32);
 
-// Returns the set of slabs first .. end - 1.
 inline BlockMask block_mask(int first, int end) {
     if (first >= end) return 0;
     return ~BlockMask{0} >> (block_slabs - (end - first)) << first;

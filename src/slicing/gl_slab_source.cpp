@@ -120,7 +120,6 @@ gl::Texture upload_distances(const OccupiedBricks& bricks) {
     return texture;
 }
 
-// Returns the name that slicing/segment.glsl gives to a way of sampling.
 const char* sampling_define(VolumeSampling sampling) {
     switch (sampling) {
         case VolumeSampling::none:

@@ -165,7 +165,6 @@ std::vector<glm::ivec2> pixels_all_over(int width, int height, int edge) {
     return pixels;
 }
 
-// Returns the largest difference of a channel, for each pixel.
 std::vector<float> differences_of(const Image& a, const Image& b) {
     std::vector<float> differences;
     differences.reserve(a.rgba.size() / 4);
