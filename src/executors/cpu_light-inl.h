@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes how light changes colours (docs/numerics.md, section 10), as optics/ray_lights.h does.
+// Computes how light changes colours (docs/numerics.md, section 10.1), as optics/ray_lights.h does.
 #if defined(LAMINA_EXECUTORS_CPU_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_EXECUTORS_CPU_LIGHT_INL_H_
 #undef LAMINA_EXECUTORS_CPU_LIGHT_INL_H_
@@ -17,8 +17,8 @@ LAMINA_INLINE Float dot(const Float (&a)[3], const Float (&b)[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Replaces each x, 0 to 1, by x^light.half_power. All are computed side by side, because each
-// multiplication waits for the one before.
+// Replaces each x, 0 to 1, by x^light.half_power. All x are multiplied side by side, because each
+// product of one x waits for the product before.
 template <std::size_t count>
 LAMINA_INLINE void set_shine(const CpuLight& light, Float (&x)[count]) {
     if (light.whole_half_power == 0) {
@@ -39,15 +39,15 @@ LAMINA_INLINE void set_shine(const CpuLight& light, Float (&x)[count]) {
     for (std::size_t i = 0; i < count; ++i) x[i] = power[i];
 }
 
-// The effect of light on a colour c at a place: it adds c * change + highlight to c. One channel is
-// enough if lights are grey.
+// The effect of light on a colour c at a place: light adds c * change + highlight to c. If all
+// lights are grey, one channel stands for all three.
 template <std::size_t channels>
 struct EffectLanes {
     Float change[channels], highlight[channels];
 };
 
-// Computes the effects at some places of a ray, where the gradients are g. `smallest_square`:
-// square of Lighting::smallest_gradient, in the unit of g.
+// Computes the effects at some places of a ray. g: the gradients there; `smallest_square`: square
+// of Lighting::smallest_gradient, in the unit of g; `to_eye_unit`: unit vector to the eye.
 template <std::size_t channels, std::size_t count>
 LAMINA_INLINE void set_effects(const CpuLight& light, const Float (&g)[count][3],
                                Float smallest_square, const Float (&to_eye_unit)[3],
@@ -110,10 +110,10 @@ LAMINA_INLINE EffectLanes<channels> effect_of(const CpuLight& light, const Float
     return effects[0];
 }
 
-// Returns a bound on light's effect between the nodes of a piece. `square`: that of the
-// gradient's length in the middle; `reach`: largest square of the distance from that gradient. If
-// the gradient stays near, nothing is hidden; else a highlight may be. All else has no peaks, and
-// hides its full effect only if the gradient differs three times as much.
+// Returns a bound on the effect of light that the nodes of a piece may miss (section 10.4).
+// `square`: squared length of the gradient in the piece's middle; `reach`: largest squared distance
+// of its other gradients from that one. A highlight may be missed if reach > most_turn^2 square.
+// Other light has no peaks: its bound grows from 0 at most_plain_turn to all at three times that.
 LAMINA_INLINE Float hidden_effect(const CpuLight& light, Float square, Float reach,
                                   Float smallest_square) {
     const FloatMask peaks = reach > light.most_turn * light.most_turn * square;
@@ -128,8 +128,9 @@ LAMINA_INLINE Float hidden_effect(const CpuLight& light, Float square, Float rea
     return effect * weight;
 }
 
-// Sums of light over three nodes of Gauss' rule, whose weights add up to the opacity. `shared`:
-// changes times the node's share of the interval, for colours that change along the piece.
+// Sums of light over the three nodes of Gauss' rule, weighted by the visible opacity at each node.
+// `total`: sum of the weights; `shared`: sum of changes times the nodes' shares of the interval,
+// for colours that vary along the piece; `bend`: second difference of light over the nodes.
 template <std::size_t channels>
 struct LitNodes {
     Float total, change[channels], shared[channels], highlight[channels], bend[channels];
@@ -139,8 +140,8 @@ struct LitNodes {
             change[c] = shared[c] = highlight[c] = bend[c] = Float(0);
     }
 
-    // Adds a node. `extinction`: times the piece's length; `before`: the piece's optical depth in
-    // front of the node. A `deep` piece shows its front alone.
+    // Adds a node. `extinction`: extinction there times the piece's length; `before`: the piece's
+    // optical depth in front of the node. If the piece is `deep`, only the first node counts.
     LAMINA_INLINE void add(std::size_t node, const EffectLanes<channels>& effect, Float extinction,
                            Float before, FloatMask deep, Float share) {
         const Float seen = GaussRule<3>::weights[node] * extinction * (1 - shallow_opacity(before));
@@ -164,8 +165,8 @@ struct LitNodes {
     }
 };
 
-// Returns the length, 1 / 8 to 1 of a piece, at which it is cut first: 1.5 times what the bend
-// demands, since most pieces hide less. The error at a kink falls with the square of the length.
+// Returns the share of a piece, 1/8 to 1, to which it is cut first. The error at a kink falls with
+// the square of the length. The factor 1.5: most pieces hide less than their bound.
 LAMINA_INLINE Float longest_piece(const CpuLight& light, Float bend) {
     const Float least(1.0f / 8), longer(1.5f);
     const Float share = light.most_bend / max(bend, 1e-30f);
@@ -175,7 +176,7 @@ LAMINA_INLINE Float longest_piece(const CpuLight& light, Float bend) {
 // Length, as a share of a piece, below which it is not cut further.
 inline constexpr float shortest_lit_piece = 1.0f / 256;
 
-// Returns the pieces whose light bends too much for one rule.
+// Returns the lanes whose light bends too much for one piece, unless the piece is faint.
 LAMINA_INLINE FloatMask bends(const CpuLight& light, Float bend, Float opacity) {
     return (bend > light.most_bend) & (bend * opacity > light.faint_bend);
 }

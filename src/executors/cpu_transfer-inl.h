@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks up the transfer function, and integrates segments by the pre-integration table: vector
-// forms of shaders/optics/intervals.glsl and transfer_function.glsl, and of
-// shaders/preintegration/knot_table.glsl as shaders/slicing/segment.glsl uses it (KnotTable::lookup
-// in float).
+// Looks up the transfer function, and integrates segments by the pre-integration table:
+//   1. Find the intervals of the scalars at both ends, and their coordinates in the table.
+//   2. If the intervals differ, cut the segment at the first and the last interval end it crosses.
+//   3. Look up each piece's mean extinction and emission: bilinear in scalars, linear in length.
+//   4. Composite the pieces front to back.
+// These are vector forms of intervals.glsl, transfer_function.glsl and knot_table.glsl in shaders/.
 #if defined(LAMINA_EXECUTORS_CPU_TRANSFER_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_EXECUTORS_CPU_TRANSFER_INL_H_
 #undef LAMINA_EXECUTORS_CPU_TRANSFER_INL_H_
@@ -17,8 +19,8 @@
 
 LAMINA_SIMD_BEGIN
 
-// How numbers of an interval are looked up. one: there is only one interval. permute: by permuting
-// a vector that holds the numbers of all intervals. gather: by gathers from memory.
+// How numbers of an interval are looked up. one: there is a single interval; permute: a vector that
+// holds the numbers of all intervals is permuted; gather: numbers are gathered from memory.
 enum class Lookup { one, permute, gather };
 
 template <class Body>
@@ -138,7 +140,7 @@ LAMINA_INLINE Float table_extinction(const KnotTable& table, const TableCell& ce
     return mix(front, back, cell.back);
 }
 
-// Interpolates between a cell's nodes. `right`, `below`: numbers to the next front and back node.
+// Interpolates between a cell's nodes. `right`, `below`: floats to the next front and back node.
 template <class V>
 LAMINA_INLINE V mixed_nodes(const float* texels, std::ptrdiff_t right, std::ptrdiff_t below,
                             float front, float back) {
@@ -275,8 +277,8 @@ LAMINA_INLINE TablePlace table_place(const CpuTransfer& transfer, Float scalar) 
                           look_up<kind>(transfer.first_node, interval)};
 }
 
-// The composite of the first pieces of a segment: associated colour and optical depth.
-// integrate_segment() returns colour that is not associated in it.
+// Colour and optical depth of the first pieces of a segment, with associated colour, or of a whole
+// segment as integrate_segment() returns it, with colour that is not associated.
 struct RunSum {
     Float color[3];
     Float depth;
@@ -298,7 +300,7 @@ LAMINA_INLINE SumOf<lit> no_sum() {
         return {{zero, zero, zero}, zero};
 }
 
-// Shares of a lit segment's length: a piece's, and (`left`) that of all behind the piece.
+// Shares of a lit segment's length: that of a piece, and that of all behind the piece (`left`).
 struct PieceShares {
     Float share, left;
 };
@@ -325,7 +327,6 @@ LAMINA_INLINE void add_entry(const EntryOf<lit>& entry, Float length, const Piec
     sum.depth += depth;
 }
 
-// The scalars at both ends of a segment, its length, and the places of the scalars in the table.
 struct SegmentEnds {
     Float front, back, length;
     TablePlace front_place, back_place;
@@ -343,7 +344,7 @@ struct TablePiece {
 struct Segment {
     TablePiece first, between, last;
     Float length;
-    FloatMask seen, cut, parted;  // lanes that are visible; that are cut; that have a piece between
+    FloatMask seen, cut, parted;  // lanes that are visible, that are cut, that have `between`
     bool some_cut;
 };
 
@@ -444,7 +445,6 @@ LAMINA_INLINE SumOf<lit> sum_of_pieces(const CpuTransfer& transfer, const Segmen
     return sum;
 }
 
-// Returns the segments' optical depth and colour, not associated, from their table entries.
 template <bool lit>
 LAMINA_INLINE SumOf<lit> integrate_colors(const CpuTransfer& transfer, const Segment& segment,
                                           const SegmentEntries<lit>& entries) {
@@ -490,7 +490,7 @@ LAMINA_INLINE Float integrate_depth(const CpuTransfer& transfer, const Segment& 
     return select(segment.cut, pieces, whole);
 }
 
-// Returns segments' colour, not associated, and optical depth. `entries`: for `colored` alone.
+// Returns the segments' colour, not associated, and optical depth. `entries`: needed if `colored`.
 template <bool lit>
 LAMINA_INLINE SumOf<lit> integrate_segment(const CpuTransfer& transfer, bool colored,
                                            const Segment& segment,

@@ -39,8 +39,7 @@ void swizzle_pixels(const TargetBlend& target, bool emulated, const Swizzle& swi
     }
 }
 
-// Makes the picture from the opacity in the root and a single colour, as
-// shaders/slicing/colorize.frag does.
+// Makes the picture of the root's opacity and one colour, as shaders/slicing/colorize.frag does.
 void colorize_pixels(const TargetBlend& target, bool emulated,
                      const std::array<float, 3>& single_color, const TilePixels::Plane& root,
                      TilePixels& pixels) {

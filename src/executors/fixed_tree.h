@@ -26,13 +26,13 @@ Swizzles make_swizzles(const TreeShape& shape, int bits);
 
 // Composites the opacity of some samples, as codes, onto a plane of a tile, in the plan's order.
 // Samples (slabs, or tets) are numbered in visibility order, nearest first. Optical depths are
-// multiplied by `depth_scale`, the number of all samples over the leaf's.
+// multiplied by `depth_scale`, the number of all samples over that of the leaf.
 using TileLeaves =
     std::function<void(const SampleSpan& span, double depth_scale, TilePixels::Plane& opacity)>;
 
-// Composites by LaMar's exponent-factoring (2004, section 6) on the CPU, as GlFixedTree with
-// OpenGL. Each node composites opacity in a plane of fixed-point codes, which goes through a table
-// into its parent's as soon as it is complete, so one plane a level is enough.
+// Composites by LaMar's exponent-factoring (2004, section 6) on the CPU, as GlFixedTree does with
+// OpenGL. Each node composites opacity in a plane of fixed-point codes. As soon as a plane is
+// complete, it goes through a Swizzle into its parent's, so one plane a level is enough.
 class CpuFixedTree {
   public:
     // `plan`: how nodes composite. Leaves may be drawn in another way.
@@ -43,8 +43,8 @@ class CpuFixedTree {
     void draw(const TileGrid::Tile& area, const TileLeaves& leaves, TilePixels& pixels) const;
 
     // Steps of draw(), for callers that evaluate the tree themselves. put_into_parent() composites
-    // a child's opacity onto its node's; `number` counts these calls in a frame. colorize() sets
-    // pixels to what the root shows.
+    // a child's opacity (`from`) onto its node's (`to`); `number` counts these calls in a frame.
+    // colorize() sets pixels to the root's opacity in the single colour.
     void put_into_parent(const SampleSpan& child, const SampleSpan& node, std::uint32_t number,
                          const TileGrid::Tile& area, const TilePixels::Plane& from,
                          TilePixels::Plane& to) const;

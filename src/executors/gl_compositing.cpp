@@ -34,7 +34,7 @@ gl::TextureFormat format_for(const CompositingPlan& plan,
     unreachable_enum();
 }
 
-// Uploads, for each code of a child's image, its opacity in the node as a scaled value.
+// Uploads a table: for each code of a child, its opacity in the node as whole part and rest.
 gl::Texture upload_swizzle(const Swizzle& swizzle) {
     const std::size_t codes = swizzle.whole.size();
     const int rows = static_cast<int>((codes + swizzle_width - 1) / swizzle_width);

@@ -20,8 +20,8 @@ namespace lamina {
 gl::TextureFormat color_format(const CompositingPlan& plan);    // RGBA of the target
 gl::TextureFormat opacity_format(const CompositingPlan& plan);  // one channel of the same precision
 
-// Sets the plan's codes, rounding and OVER for programs that include shaders/compositing to round
-// fragments. A program that must read its target reads it at texture unit `target_unit`.
+// Defines the plan's codes, rounding and OVER for programs that round fragments by
+// shaders/compositing. A program that must read its target reads it at unit `target_unit`.
 void set_compositing(gl::Defines& defines, const CompositingPlan& plan);
 inline constexpr int target_unit = 5;
 
@@ -48,8 +48,8 @@ class TreeLeaves {
   public:
     virtual ~TreeLeaves() = default;
 
-    // Composites these samples' opacity onto the one channel of the bound target, in the plan's
-    // order. Optical depths are multiplied by `depth_scale`, all samples over those of the leaf.
+    // Composites the opacity of samples onto the one channel of the bound target, in the plan's
+    // order. `depth_scale` multiplies optical depths: the number of all samples over the leaf's.
     virtual void draw(const SampleSpan& span, const gl::Framebuffer& target,
                       double depth_scale) = 0;
 };

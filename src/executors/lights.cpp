@@ -11,14 +11,14 @@ namespace {
 
 // Largest most_turn: with it, a piece's gradient is nowhere shorter than .3 of that in the middle.
 constexpr double most_growth = 0.7;
-// Half the angle, in units of 1 / sqrt(power), that the gradient may turn on a piece with
-// highlights. A unit is the angle at which a highlight falls to exp(-1/2). On six of these units,
-// three nodes have one within 1.2 units of any peak.
+// Half the angle, in units of 1 / sqrt(power), by which the gradient may turn on a piece with
+// highlights. A unit is the angle at which a highlight falls to exp(-1/2). If a piece turns by six
+// units, one of the three nodes lies within 1.2 units of any peak.
 constexpr double peak_widths = 3;
 
-// For lights with this effect, as a multiple of the bend that may remain at max_error 1, the turns
-// of LightCuts are right; stronger light needs smaller ones. The error of a rule of three nodes on
-// smooth light falls with the sixth power (`order`) of the turn.
+// Largest effect of light, as a multiple of most_bend, for which the turns of LightCuts are small
+// enough. Stronger light needs smaller turns: the error of three nodes on smooth light falls with
+// the sixth power (`order`) of the turn.
 constexpr double usual_effect = 25, order = 6;
 
 CpuLight::Direction direction_of(const Light& light, const std::array<glm::dvec3, 3>& axes) {

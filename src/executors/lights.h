@@ -23,9 +23,9 @@ inline SmallestGradient smallest_gradient_of(const Lighting& lighting) {
 
 // Thresholds at which a lit piece of a ray is cut because its gradient turns too much.
 struct LightCuts {
-    // Largest distance of the gradient from that in a piece's middle, as a share of its length.
-    // Beyond most_turn, highlights of up to `highlight_effect` may lie between the nodes of Gauss'
-    // rule; beyond most_plain_turn, all else may change by up to `plain_effect` there.
+    // A turn is the largest distance of a piece's gradients from the one in its middle, as a share
+    // of that one's length. Beyond most_turn, highlights of up to highlight_effect may lie between
+    // the nodes of Gauss' rule; beyond most_plain_turn, other light of up to plain_effect may.
     double most_turn = 0, highlight_effect = 0;
     double most_plain_turn = 0, plain_effect = 0;
 
@@ -42,10 +42,10 @@ LightCuts light_cuts(const Lighting& lighting);
 // A lighting in the form that vector code computes with, along three orthogonal axes.
 struct CpuLight {
     struct Direction {
-        bool to_eye = false;  // a headlight
-        std::array<float, 3> to_light{};
+        bool to_eye = false;              // true: a headlight, which has no to_light
+        std::array<float, 3> to_light{};  // unit vector along the axes
         std::array<float, 3> color{};
-        float largest_color = 0;
+        float largest_color = 0;  // max component of color
     };
     std::vector<Direction> directions;
     bool gray = false;  // all components of each colour are equal

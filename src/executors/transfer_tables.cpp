@@ -32,14 +32,13 @@ void set_ends(std::vector<float>& last_row, const std::vector<float>& places,
     }
 }
 
-// Returns the extinction's remainder beyond float32: codes of n bits are computed in double.
+// Returns the extinction's remainder beyond float32, because codes of n bits need doubles.
 float low_part(const OpticalProperties& optics) {
     const double extinction = std::min(optics.extinction, max_shader_extinction);
     return static_cast<float>(extinction - static_cast<double>(static_cast<float>(extinction)));
 }
 
-// Returns the texels of a coloured table: extinction beside emission, because they are read entry
-// by entry.
+// Returns a coloured table's texels: extinction beside emission, as entries are read as a whole.
 CpuTransfer::Aligned texels_of(const KnotTable& table) {
     const std::size_t entries = table.mean_extinction.size(), layers = table.lengths.size();
     const std::size_t size = table.request.lit ? 8 : 4;

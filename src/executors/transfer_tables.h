@@ -14,7 +14,7 @@
 
 namespace lamina {
 
-// Largest extinction in shaders and vector code: opaque, and finite in float32 times a length.
+// Max extinction in shaders and vector code: opaque, and finite in float32 even times a length.
 inline constexpr double max_shader_extinction = 1e30;
 // Larger than all normalised scalars.
 inline constexpr float beyond_all_scalars = 3e38f;
