@@ -5,8 +5,7 @@
 
 namespace lamina {
 
-// Returns the capabilities of the engine `cpu` on this machine. The renderer's name is, for
-// example, "cpu: AVX3".
+// Returns the capabilities of the engine `cpu` here. `renderer` is, for example, "cpu: AVX3".
 Capabilities cpu_capabilities();
 
 }  // namespace lamina

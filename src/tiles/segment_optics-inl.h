@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opacity and colour of segments of rays, in three groups of vector forms: opacities of optical
-// depths (shaders/optics/opacity.glsl); weights of the front's colour on linear segments and
-// pieces, with the Gauss rules of curved ones (shaders/optics/linear_segment.glsl,
-// piece_weights.glsl); and segments looked up in a UniformTable
-// (shaders/preintegration/uniform_table.glsl).
+// Computes opacity and colour of segments of rays, in vector forms of shaders:
+//   opacity of an optical depth (shaders/optics/opacity.glsl);
+//   weight of the front's colour on linear segments and pieces (shaders/optics/linear_segment.glsl,
+//       piece_weights.glsl), and Gauss rules for curved pieces;
+//   segments by look-up in a UniformTable (shaders/preintegration/uniform_table.glsl).
 #if defined(LAMINA_TILES_SEGMENT_OPTICS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_SEGMENT_OPTICS_INL_H_
 #undef LAMINA_TILES_SEGMENT_OPTICS_INL_H_
@@ -116,8 +116,8 @@ LAMINA_INLINE Float piece_front_weight(Float p, Float q) {
     return 1 - seen + seen * sum;
 }
 
-// Optical depth above which pieces of exact segments are split. Up to it, the Gauss rules of
-// GaussRule have an error of at most .01 / 255.
+// Optical depth above which pieces of exact segments are split. Up to it, the error of each
+// GaussRule is at most .01 / 255.
 inline constexpr float largest_piece_depth = 0.75f;
 
 // Returns 1 - exp(-depth) for depths up to largest_piece_depth, with a relative error of 2e-5:

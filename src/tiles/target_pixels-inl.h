@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Composites fragments onto a vector of pixels of a tile (tiles/tile_image.h). The first half, up
 // to random_of_pixels(), holds vector forms of compositing/codes.h, bit for bit. In the second,
-// blend() computes what OpenGL's blending unit does, rounded as by llvmpipe; composite_codes() OVER
-// on codes, rounded as render.emulate says; composite_stochastic() OVER rounded at random; and
-// blend_opacity() and composite_opacity() the same in one channel.
+// blend() composites as OpenGL's blending unit does, with llvmpipe's rounding; composite_codes()
+// computes OVER on codes, rounded as render.emulate says; composite_stochastic() rounds at random.
+// blend_opacity() and composite_opacity() composite one channel.
 #if defined(LAMINA_TILES_TARGET_PIXELS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_TILES_TARGET_PIXELS_INL_H_
 #undef LAMINA_TILES_TARGET_PIXELS_INL_H_
@@ -174,8 +174,8 @@ LAMINA_INLINE Float native_code(float largest, Float value) {
     return round(clamp01(value) * largest);
 }
 
-// Blends `source` onto one channel. `kept`: how much, up to target.largest, the source lets through
-// of the pixel or, front to back, the pixel lets through of the source.
+// Blends `source` onto one channel. `kept`: target.largest times the transmittance of the source
+// or, front to back, of the pixel.
 LAMINA_INLINE void blend_channel(const TargetBlend& target, Float source, Float kept,
                                  Float& there) {
     const bool behind = target.order == Order::front_to_back;
@@ -189,9 +189,9 @@ LAMINA_INLINE void blend_channel(const TargetBlend& target, Float source, Float 
     there = target.target == Target::float16 ? truncate_to_half(sum) : sum;
 }
 
-// Computes what the blending unit does: source + there (1 - source alpha), or front to back there +
-// source (1 - there alpha). Fixed-point targets round the fragment to codes first, and then the
-// product. All rounding is llvmpipe's.
+// Composites as the blending unit does: source + there (1 - source alpha) or, if the order is front
+// to back, there + source (1 - there alpha). Fixed-point targets round the fragment to codes first,
+// and then the product. All rounding is llvmpipe's.
 LAMINA_INLINE void blend(const TargetBlend& target, const Fragment& fragment, Pixels& there) {
     Fragment source = fragment;
     if (is_fixed_point(target.target)) {
@@ -246,14 +246,14 @@ LAMINA_INLINE void composite_opacity(const TargetBlend& target, Float alpha, Flo
     there = composite_channel(target, Float(target.largest), alpha, there, there);
 }
 
-// Returns opacities' codes, rounded as render.emulate says. `random`: for stochastic rounding.
+// Returns the codes of opacities, rounded as render.emulate says. `random`: see round_alpha().
 LAMINA_INLINE Float alpha_code(const TargetBlend& target, const Float64& opacity, Word random) {
     const double largest = target.largest;
     return to_float(
         round_alpha(target.alpha_rounding, split_scaled(largest * opacity), Float64(random)));
 }
 
-// Returns the codes of opacities or colours in 0..1, dithered along depth. `rank`: the slab's.
+// Returns the codes of opacities or colours in 0..1, dithered along depth by the slab's `rank`.
 LAMINA_INLINE Float dithered_code(const TargetBlend& target, const Float64& value,
                                   const Dither& dither, std::uint32_t rank) {
     const double largest = target.largest;

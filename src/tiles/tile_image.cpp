@@ -5,8 +5,7 @@
 
 namespace lamina {
 
-// Writes all tiles once, in parallel, because the system provides memory when it is first written,
-// which takes long.
+// Writes all tiles once, in parallel: the system is slow to provide memory, on its first write.
 TileImage::TileImage(int width, int height)
     : grid_(width, height),
       tiles_(
