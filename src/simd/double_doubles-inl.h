@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vector form of DoubleDouble (the sum of two doubles, some 32 digits), rounded in the same way.
+// Vector form of DoubleDouble (the sum of two doubles, some 32 digits), with equal rounding.
 #if defined(LAMINA_SIMD_DOUBLE_DOUBLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SIMD_DOUBLE_DOUBLES_INL_H_
 #undef LAMINA_SIMD_DOUBLE_DOUBLES_INL_H_
@@ -27,12 +27,14 @@ struct DoubleDoubles {
     LAMINA_INLINE DoubleMask finite() const { return is_finite(hi) & is_finite(lo); }
 };
 
+// Returns a + b without error, whichever is larger (Knuth's two-sum).
 LAMINA_INLINE DoubleDoubles exact_sum(Double a, Double b) {
     const Double sum = a + b;
     const Double b_part = sum - a;
     return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
+// Returns a * b without error: fma() gives what the rounded product leaves.
 LAMINA_INLINE DoubleDoubles exact_product(Double a, Double b) {
     const Double product = a * b;
     if constexpr (has_fma) return {product, fms(a, b, product)};

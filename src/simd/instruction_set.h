@@ -6,13 +6,13 @@
 
 namespace lamina {
 
-// Vector instructions of the engine `cpu`: SSE4, AVX2, AVX3 (AVX-512), NEON. Its pictures do not
+// Return instruction sets of the engine `cpu`: SSE4, AVX2, AVX3 (AVX-512), NEON. Pictures do not
 // depend on them: there are no fused multiply-adds and no approximate reciprocals.
 std::string instruction_set();                // in use
 std::vector<std::string> instruction_sets();  // those that this machine has, the best first
 
-// Limits the engine to this instruction set, and to worse ones, from now on, for checks. Throws
-// UsageError if the machine does not have it. No frame may be drawn during the call.
+// Excludes all instruction sets better than `name` from now on, for checks. Throws UsageError if
+// the machine does not have it. No frame may be drawn during the call.
 void restrict_instructions(const std::string& name);
 
 }  // namespace lamina

@@ -21,7 +21,6 @@ constexpr LaneSet lane_bit(std::size_t lane) {
 // A number for each lane of a packet of rays.
 struct alignas(64) LaneRow : std::array<double, longest_vector> {};
 
-// Calls visit(lane) for each lane of a set, in order.
 template <typename Visit>
 void for_each_lane(LaneSet lanes, const Visit& visit) {
     for (LaneSet left = lanes; left != 0; left &= left - 1)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Elementary functions of vectors.
+// Computes exp and log: takes powers of two out of the argument, then sums a polynomial.
 #if defined(LAMINA_SIMD_MATH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SIMD_MATH_INL_H_
 #undef LAMINA_SIMD_MATH_INL_H_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packs some lanes of vectors, the members of a set, side by side in memory, and puts them back.
-// Loops use this to fill vectors anew with the lanes that still have work.
+// Packs the members of a set of lanes side by side in memory, and unpacks them into their lanes.
+// Loops thus fill vectors anew with the lanes that still have work.
 #if defined(LAMINA_SIMD_MEMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SIMD_MEMBERS_INL_H_
 #undef LAMINA_SIMD_MEMBERS_INL_H_
@@ -34,7 +34,7 @@ LAMINA_INLINE Float members_first(Float v, FloatMask members) {
     }
 }
 
-// Stores a vector's members from `to` on; overwrites the rest of a vector's length behind them.
+// Stores a vector's members from `to` on; overwrites a whole vector's length there.
 LAMINA_INLINE void store_members(Float v, FloatMask members, float* to) {
     store_unaligned(members_first(v, members), to);
 }
@@ -49,7 +49,6 @@ struct StoredLanes {
     std::uint8_t places[most_lanes];
 };
 
-// Returns a set of lanes with the places of its members.
 LAMINA_INLINE StoredLanes stored_lanes(FloatMask members) {
     StoredLanes lanes{bits_of(members), {}};
     const LaneSet first = lanes.set & 255;

@@ -187,7 +187,6 @@ template <class V>
 LAMINA_INLINE void load_interleaved(const typename V::Scalar* from, V& a, V& b) {
     hn::LoadInterleaved2(typename V::Tag(), from, a.v, b.v);
 }
-// Returns first, first + 1, first + 2 ...
 template <class V>
 LAMINA_INLINE V iota(typename V::Scalar first) {
     return hn::Iota(typename V::Tag(), first);
@@ -322,7 +321,6 @@ LAMINA_INLINE Int gather_at_bytes(const std::int32_t* from, Int bytes) {
     return hn::GatherOffset(Int::Tag(), from, bytes.v);
 }
 
-// Returns -1 in the lanes of a mask, and 0 in the others.
 LAMINA_INLINE Long minus_one_in(DoubleMask mask) {
     return hn::VecFromMask(Long::Tag(), hn::RebindMask(Long::Tag(), mask.m));
 }
@@ -428,7 +426,6 @@ struct Float64 {
 #undef LAMINA_FLOAT64_OPERATOR
 };
 
-// Rounds to the nearest float.
 LAMINA_INLINE Float to_float(const Float64& a) {
     const hn::Half<Float::Tag> half;
     return hn::Combine(Float::Tag(), hn::DemoteTo(half, a.high.v), hn::DemoteTo(half, a.low.v));
@@ -442,7 +439,6 @@ LAMINA_INLINE Int to_int(const Float64& whole) {
 LAMINA_INLINE Float64 load_float64(const double* from) {
     return {load<Double>(from), load<Double>(from + Double::lanes)};
 }
-// Returns the mask for Float with the same lanes set.
 LAMINA_INLINE FloatMask to_float_mask(const Float64Mask& a) {
     return to_float(zero_unless(a, Float64(1.0))) > Float(0);
 }
