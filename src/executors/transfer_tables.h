@@ -32,7 +32,7 @@ struct ShaderIntervals {
 
     int count = 0;
     std::vector<float> texels;  // rows * count * 4
-    // The intervals that hold the beginnings of equal parts of [0, 1], where searches start.
+    // The intervals that hold the beginnings of equal parts of [0, 1], at which searches start.
     std::array<float, start_count> starts{};
 };
 
@@ -72,8 +72,8 @@ struct CpuTransfer {
     std::array<std::vector<float>, 2> bend;
     std::vector<float> right_end;              // of the last interval: beyond all scalars
     std::vector<float> left_rest, right_rest;  // remainders of extinctions beyond float
-    // For each interval: how many before it have extinction; and the scalar beyond which it has
-    // some itself, -1 if from its left end on, beyond_all_scalars if it has none.
+    // shown_before: number of earlier intervals with extinction; shown_beyond: scalar beyond which
+    // the interval has extinction: -1 if already at its left end, beyond_all_scalars if nowhere.
     std::vector<float> shown_before, shown_beyond;
     std::vector<std::int32_t> starts;  // ShaderIntervals::starts
 
