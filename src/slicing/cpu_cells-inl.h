@@ -58,7 +58,7 @@ class CellIntegrator {
     // `colored`: colours are needed, and not optical depths alone.
     CellIntegrator(const CpuSlabs& slabs, bool colored) : slabs_(slabs), colored_(colored) {}
 
-    // Begins packets of rays at the front of a slab, or where they enter the drawn box behind it.
+    // Begins packets of rays at the front of a slab, or at the drawn box if that is farther away.
     void begin(const CpuBrickView& view, const PacketRays* packets, std::size_t count, int slab);
     // Ends rays at the front of slab `slab`, which must not lie in front of what was integrated.
     void set_end(int slab) {

@@ -4,7 +4,7 @@
 //
 //   for each point:
 //       cell, weights = the cell that holds the point, and the point's position in it     cell_at()
-//       index = where the cell's lowest corner is in memory, or in a page            cell_index()
+//       index = place of the cell's lowest corner in memory, or in a page            cell_index()
 //       pairs = the four pairs of samples that are neighbours along x                fetch_pairs()
 //       corners = the pairs as floats                                               unpack_pairs()
 //       scalar = trilinear mix of the corners by the weights                         interpolate()

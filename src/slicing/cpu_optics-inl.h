@@ -93,12 +93,12 @@ LAMINA_INLINE Turns turns_of(const CubicLanes& cubic) {
     return {min(one, other), max(one, other)};
 }
 
-// Finds where a cubic, monotone between two places, has a given value, by roots of parabolas that
-// touch it (Euler's method), kept in a bracket. Converges with third order, also near turns.
+// Finds the t at which a cubic that is monotone in a bracket has a given value: steps to the root
+// of the touching parabola (9.6), or bisects. Converges with third order, also near turns.
 struct RootLanes {
     Float t;
 
-    // Begins between `from` and `to`, where the cubic is at_from and at_to, in the lanes `wanted`.
+    // Begins in the lanes `wanted`. The cubic is at_from at `from` and at_to at `to`, the bracket.
     LAMINA_INLINE void begin(Float value, Float from, Float to, Float at_from, Float at_to,
                              FloatMask wanted) {
         value_ = value;
@@ -137,7 +137,7 @@ struct RootLanes {
     FloatMask rising_, active_;
 };
 
-// The bends of an interval's extinction (CpuTransfer::bend); none if it is straight.
+// The bends of an interval's extinction (CpuTransfer::bend); straight intervals have none.
 template <bool curved>
 struct IntervalBend {};
 template <>

@@ -33,7 +33,7 @@ std::size_t gradients_after(std::size_t sample_bytes) {
 struct BrickSpan {
     std::int64_t first, end;
 };
-// Returns the min/max bricks on an axis that touch the share; all if there is none.
+// Returns the min/max bricks on an axis that touch the share; all if there is no share.
 BrickSpan bricks_of(const std::optional<IndexBox>& share, int axis,
                     const OccupiedBricks& occupied) {
     const std::int64_t count = occupied.count[static_cast<std::size_t>(axis)];
@@ -64,8 +64,8 @@ std::vector<BrickSpan> bricks_of_pages(const BrickSpan& span, std::int64_t first
     return bricks;
 }
 
-// Returns how far a point lies outside each of five planes that bound the view: that of the eye,
-// and the four sides of the picture, widened by a pixel. Negative: inside.
+// Returns how far a point lies outside each of five planes that bound the view: the plane of the
+// eye, and the four sides of the picture, widened by a pixel. Negative: inside.
 std::array<double, 5> outside_of(const View& view, const glm::dvec3& point) {
     const glm::dvec3 from_eye = point - view.eye;
     const double depth = glm::dot(from_eye, view.forward);

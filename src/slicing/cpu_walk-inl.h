@@ -13,8 +13,8 @@
 //
 // Every crossing is computed from the plane itself, so errors do not add up. Depths are floats that
 // count from a starting point in double precision, which is renewed every few cells. Lit rays are
-// walked in double precision throughout: where light bends, segments are cut, and a different cut
-// changes the picture by more than a rounding. So the cut must not depend on where the walk began.
+// walked in double precision throughout: segments whose light bends too much are cut, and another
+// cut changes the picture by more than a rounding. So it must not depend on the walk's beginning.
 #if defined(LAMINA_SLICING_CPU_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef LAMINA_SLICING_CPU_WALK_INL_H_
 #undef LAMINA_SLICING_CPU_WALK_INL_H_
@@ -29,7 +29,7 @@
 
 LAMINA_SIMD_BEGIN
 
-// The places at which rays enter cells, 0 to 1, and the changes of place up to where they leave.
+// The places in cells, 0 to 1, at which rays enter, and the changes of place until they leave.
 struct CellPaths {
     Float place[3], change[3];
 };
@@ -225,7 +225,7 @@ class CellWalk {
         return to_float(side - (cell_[axis] + first_[axis]));
     }
 
-    // Returns where the next step ends, from begin_steps() on; sets the rays that reach each plane.
+    // Returns the next step's end, from begin_steps() on. `passes`: rays that reach each plane.
     LAMINA_INLINE Depth end_of_step(const Float (&planes)[3], FloatMask (&passes)[3]) const {
         Depth crossings[3];
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -283,7 +283,7 @@ class CellWalk {
     }
 
     // Returns places relative to `corner`, counted from cell_. In doubles: after leaps depth is
-    // large, and floats would move rays by 2e-6 of a cell, visible where they graze a surface.
+    // large, and floats would move rays by 2e-6 of a cell, visible if they graze a surface.
     LAMINA_INLINE Float place_in_cell(std::size_t axis, Int corner) const {
         const Float64 place = start_[axis] + Float64(at_) * direction_[axis];
         return to_float(place - Float64(corner));

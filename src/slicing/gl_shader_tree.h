@@ -14,7 +14,7 @@ namespace lamina {
 // The node whose result a program of the tree writes: an inner one or the root.
 enum class NodePlace { inner, root };
 // Return the definitions that specialise slicing/leaf.frag and slicing/node.frag for a plan.
-// `segments`: those of segment_defines().
+// `segments`: the result of segment_defines().
 gl::Defines leaf_defines(const SlicePlan& plan, gl::Defines segments, NodePlace place);
 gl::Defines node_defines(const SlicePlan& plan, NodePlace place);
 

@@ -52,7 +52,7 @@ void upload_converted(const Grid& grid, const TextureBrick& brick, const Sample*
     }
 }
 
-// Uploads samples from where they lie in memory, without a copy.
+// Uploads samples straight from the volume's memory, without a copy.
 template <typename Texel>
 void upload_in_place(const Grid& grid, const TextureBrick& brick, const Texel* samples,
                      gl::Texture& texture, Progress& progress) {

@@ -60,7 +60,7 @@ class GlSlabSource {
     void take_plan(const SlicePlan& plan);
     gl::Defines defines() const;
 
-    // Set a program's uniforms: those that never change, those of a view, those of a plan's brick.
+    // Set the uniforms that never change, that depend on the view, and that depend on a brick.
     void bind(gl::Program& program) const;
     void set_view(gl::Program& program, const View& view, const Slabs& slabs) const;
     void set_brick(gl::Program& program, const View& view, const Slabs& slabs,

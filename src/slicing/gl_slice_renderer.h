@@ -8,7 +8,7 @@
 
 namespace lamina {
 
-// Returns the definitions that specialise slicing/slab.frag, added to those of its segments.
+// Returns the definitions that specialise slicing/slab.frag; `segments`: from segment_defines().
 gl::Defines slab_defines(const SlicePlan& plan, gl::Defines segments);
 
 // Composites slab after slab onto a target: all slabs for the picture, or those of a leaf of a tree
@@ -21,8 +21,8 @@ class GlSlabPass : public TreeLeaves {
     // Must be called after source and plan have changed in what belongs to one view alone.
     void take_plan();
     void set_view(const View& view, const Slabs& slabs);
-    // Composites slabs onto the target, in the plan's order. `depth_scale`: for a leaf, the number
-    // of all samples of the ray over that of the leaf.
+    // Composites slabs onto the target, in the plan's order. `depth_scale`: 1 or, for a leaf, the
+    // number of all samples of the ray over that of the leaf.
     void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) override;
 
   private:
