@@ -38,9 +38,9 @@ if(NOT LAMINA_SANITIZE AND CMAKE_BUILD_TYPE MATCHES "^(Release|RelWithDebInfo|Mi
 endif()
 
 # lamina_join_sources(TARGET): its sources are compiled eight at a time. Each of them alone spends most of its time on
-# headers and templates that the others use too: joined, eight tests of the command line take a quarter of the processor
-# time (docs/journal.md). Helpers of two files must not share a name then, although namespaces without names hide them. Debug builds compile each source alone: only so is an include missed that
-# the file before it has.
+# headers and templates that the others use too: joined, eight tests of the command line take a quarter of the
+# processor time (docs/journal.md). Helpers of two files must not share a name then, although namespaces without names
+# hide them. Debug builds compile each source alone: only so is an include missed that the file before it has.
 function(lamina_join_sources target)
     if(NOT CMAKE_BUILD_TYPE STREQUAL Debug)
         set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
