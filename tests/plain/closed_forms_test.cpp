@@ -19,8 +19,6 @@ namespace {
 
 using namespace plain_test;
 
-const Grid unit_box = make_grid({2, 2, 2}, Centering::node);
-
 // Returns a camera that looks along z at all of the unit box, so that rays pass it from z = 0 to z
 // = 1. No ray meets an edge of a tet.
 Camera along_z() {

@@ -64,15 +64,13 @@ SceneMesh waves(int splits, double least) {
     }));
 }
 
-const Grid twin_box = make_grid({2, 2, 2}, Centering::node);
-
 TEST(TracerAndTwin, AgreeOnSamplesOfAllTypesAndBothCenterings) {
     const auto function = [](double low, double high) {
         return TransferFunction::linear({{low, {{1, .2, .1}, 0}},
                                          {.5 * (low + high), {{.1, .8, 1}, 6}},
                                          {high, {{1, 1, 0}, 1}}});
     };
-    for (const Camera& camera : views_of(twin_box)) {
+    for (const Camera& camera : views_of(unit_box)) {
         for (const Centering centering : {Centering::node, Centering::cell}) {
             const auto expect_of = [&]<typename Sample>(Sample, double low, double high) {
                 expect_same(scene_of(function(low, high), camera),
@@ -140,7 +138,7 @@ TEST(TracerAndTwin, AgreeOnLight) {
     const SceneMesh mesh = waves(30, .1);
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
         Scene scene =
-            scene_of(test::smooth(), camera_at(twin_box, projection, {1, .4, .7}, .6), 12, 9);
+            scene_of(test::smooth(), camera_at(unit_box, projection, {1, .4, .7}, .6), 12, 9);
         for (Lighting lighting : lightings()) {
             for (const double smallest : {1e-9, .05, 2.}) {
                 lighting.smallest_gradient = smallest;
@@ -155,7 +153,7 @@ TEST(TracerAndTwin, AgreeOnLight) {
 TEST(TracerAndTwin, AgreeOnClips) {
     const Volume volume = noise();
     const SceneMesh mesh = waves(100, .1);
-    for (const Camera& camera : views_of(twin_box)) {
+    for (const Camera& camera : views_of(unit_box)) {
         for (const auto& [name, clip] : test::clips_of_unit_box()) {
             Scene scene = scene_of(test::smooth(), camera, 12, 9);
             scene.clip = clip;
@@ -199,7 +197,7 @@ TEST(TracerAndTwin, AgreeOnSteepFunctions) {
         {{.1, {1, 0, 0}, 0}, {.6, {0, 1, 0}, .9}, {.8, {0, 0, 1}, 1}}, .1);
     const Volume volume = noise();
     const SceneMesh mesh = waves(30, .1);
-    for (const Camera& camera : views_of(twin_box)) {
+    for (const Camera& camera : views_of(unit_box)) {
         for (const TransferFunction& function : {peak, opacity}) {
             Scene scene = scene_of(function, camera, 12, 9);
             expect_same(scene, volume, "volume");
@@ -218,7 +216,7 @@ TEST(TracerAndTwin, AgreeOnSteepFunctions) {
 TEST(TracerAndTwin, AgreeOnMeshesWithNeedles) {
     for (const double least : {.1, 1e-3, 1e-6}) {
         const SceneMesh mesh = waves(100, least);
-        for (const Camera& camera : views_of(twin_box))
+        for (const Camera& camera : views_of(unit_box))
             expect_same(scene_of(test::smooth(), camera), mesh, std::to_string(least), 1e-9);
     }
 }
@@ -262,7 +260,7 @@ TEST(TracerAndTwin, AgreeOnMeshesOfSeveralOrOverlappingParts) {
     for (const MeshData& data : {hollow, overlapping, needles}) {
         const SceneMesh mesh = mesh_of(data);
         const auto& [low, high] = mesh.mesh.bounds();
-        Grid box = twin_box;
+        Grid box = unit_box;
         box.origin = low;
         for (int axis = 0; axis < 3; ++axis)
             box.step[static_cast<std::size_t>(axis)] *= high[axis] - low[axis];

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/planners.h"
 
+#include "cpu_alone.h"
 #include "support/scene_fixture.h"
 
 namespace lamina {
 namespace {
 
-Capabilities cpu_engine() {
-    Capabilities capabilities;
-    capabilities.cpu = true;
-    capabilities.max_texture_size = capabilities.max_3d_texture_size = 16384;
-    return capabilities;
-}
-
 struct Case {
     explicit Case(nlohmann::json document) : scene(read_scene(document, "s")) {
         const Volume volume = load_volume(scene);
         facts = measure(scene, volume, measure_bricks(volume));
-        plan = make_plan(scene, facts, cpu_engine(), {});
+        plan = make_plan(scene, facts, cpu_alone(), {});
     }
     Scene scene;
     Facts facts;
@@ -93,7 +87,7 @@ TEST(PlannedWork, SavingsAreDifferencesOfPlans) {
     for (const Omission& omission : sparse.plan.omitted) {
         OmissionSwitch keeping;
         keeping.kept = {omission.name};
-        const Plan other = make_plan(sparse.scene, sparse.facts, cpu_engine(), keeping);
+        const Plan other = make_plan(sparse.scene, sparse.facts, cpu_alone(), keeping);
         EXPECT_EQ((other.work - sparse.plan.work).amounts(), omission.saves.amounts())
             << omission.name;
     }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "cpu_alone.h"
 #include "plan/plan.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
@@ -24,13 +25,6 @@ Tried with_trials(const Scene& scene, std::vector<SlabTrial> trials) {
     return {std::move(facts), {std::move(trials), {}}};
 }
 
-Capabilities on_cpu() {
-    Capabilities capabilities;
-    capabilities.cpu = true;
-    capabilities.max_texture_size = capabilities.max_3d_texture_size = 16384;
-    return capabilities;
-}
-
 Scene automatic_scene(const std::string& target, double max_error, float color = 1) {
     nlohmann::json document = minimal_scene();
     document["render"] = {
@@ -47,7 +41,7 @@ TEST(SlabChoice, TakesTheFewestSlabsWithinTheErrorOrTheBestTried) {
     EXPECT_EQ(with_trials(scene, {too_few}).chosen().slabs, 50);
     EXPECT_EQ(with_trials(scene, {{70, 2, 9}, too_few}).chosen().slabs, 70);
     const Tried tried = with_trials(scene, {enough});
-    const Plan plan = make_plan(scene, tried.facts, on_cpu(), {}, tried.trials);
+    const Plan plan = make_plan(scene, tried.facts, cpu_alone(), {}, tried.trials);
     EXPECT_EQ(plan.slice.slabs, 100);
     EXPECT_EQ(plan.slice.slab_trial->error, .9);
 }
@@ -98,7 +92,7 @@ TEST(TargetChoice, TakesTheFewestBytesThatRoundFinelyEnough) {
         const Scene scene = automatic_scene("auto", max_error, color);
         EXPECT_TRUE(scene.target.is_automatic());
         const Tried tried = with_trials(scene, {{40, max_error / 2, 9}});
-        const Plan plan = make_plan(scene, tried.facts, on_cpu(), {}, tried.trials);
+        const Plan plan = make_plan(scene, tried.facts, cpu_alone(), {}, tried.trials);
         EXPECT_FALSE(plan.slice.target_reason.empty());
         EXPECT_LE(plan.slice.error_bound.value_or(0) + plan.slice.slab_trial->error, max_error);
         return plan.slice.target;

@@ -9,12 +9,8 @@ namespace {
 
 constexpr int cells = 13;  // along each edge of the unit box: 13,182 tets
 
-double parts_field(const glm::dvec3& p) {
-    return .5 + .5 * std::sin(5 * p.x + 3 * p.y) * std::cos(4 * p.z);
-}
-
 SceneMesh box() {
-    const auto of_cells = [](const glm::dvec3& p) { return parts_field(p / double(cells)); };
+    const auto of_cells = [](const glm::dvec3& p) { return ripples(p / double(cells)); };
     MeshData data = test::kuhn_box({cells, cells, cells}, of_cells);
     for (glm::dvec3& point : data.points) point /= double(cells);
     return scene_mesh(std::move(data));

@@ -9,10 +9,6 @@
 namespace lamina {
 namespace {
 
-double picture_field(const glm::dvec3& p) {
-    return .5 + .5 * std::sin(5 * p.x + 3 * p.y) * std::cos(4 * p.z);
-}
-
 TransferFunction crooked() {
     return TransferFunction::linear({knot(0, {0, .2, 1}, .2), knot(.3, {0, 1, .3}, 1),
                                      knot(.4, {1, 1, 0}, 0), knot(.45, {1, 1, 0}, 0),
@@ -47,7 +43,7 @@ Difference difference(const Image& a, const Image& b) {
 
 class CpuPicture : public gl::GlTest {
   protected:
-    CpuPicture() : mesh_(scene_mesh(test::split_box(11, 3000, 1e-2, picture_field))) {}
+    CpuPicture() : mesh_(scene_mesh(test::split_box(11, 3000, 1e-2, ripples))) {}
 
     Scene scene(const TransferFunction& transfer_function) const {
         Scene scene = projection_scene(transfer_function, 101, 83);

@@ -18,10 +18,6 @@ using reference_test::directional;
 using reference_test::lightings;
 using reference_test::lit_by_one_gradient;
 
-double lit_field(const glm::dvec3& p) {
-    return .5 + .5 * std::sin(5 * p.x + 3 * p.y * p.z);
-}
-
 TransferFunction colors(double extinction) {
     return TransferFunction::linear(
         {knot(.1, {.9, .2, .1}, 0), knot(.4, {.3, .9, .2}, .4 * extinction),
@@ -68,18 +64,18 @@ class LitProjection : public ProjectionTest {
 };
 
 TEST_P(LitProjection, FineMeshesKeepMaxError) {
-    keeps_max_error(scene_mesh(test::split_box(3, 1500, .05, lit_field)), 4, "split");
+    keeps_max_error(scene_mesh(test::split_box(3, 1500, .05, waves)), 4, "split");
 }
 
 // In single tets, which may be opaque, light changes much.
 TEST_P(LitProjection, CoarseMeshesKeepMaxError) {
-    keeps_max_error(scene_mesh(test::kuhn_box({1, 1, 1}, lit_field)), 1, "kuhn");
-    keeps_max_error(scene_mesh(test::kuhn_box({1, 1, 1}, lit_field)), 200, "opaque kuhn");
-    keeps_max_error(scene_mesh(test::split_box(7, 40, .05, lit_field)), 10, "coarse");
+    keeps_max_error(scene_mesh(test::kuhn_box({1, 1, 1}, waves)), 1, "kuhn");
+    keeps_max_error(scene_mesh(test::kuhn_box({1, 1, 1}, waves)), 200, "opaque kuhn");
+    keeps_max_error(scene_mesh(test::split_box(7, 40, .05, waves)), 10, "coarse");
 }
 
 TEST_P(LitProjection, KeepsMaxErrorWithTheEyeInside) {
-    const SceneMesh mesh = scene_mesh(test::split_box(3, 300, .05, lit_field));
+    const SceneMesh mesh = scene_mesh(test::split_box(3, 300, .05, waves));
     Scene scene = lit_scene(3, directional());
     scene.camera->eye = {.31, .42, .63};
     EXPECT_LE(linf(project(mesh, scene, capabilities()), trace(mesh, scene)), scene.max_error);
@@ -112,7 +108,7 @@ TEST_P(LitProjection, ALinearFieldIsTheUnlitPictureTimesAConstant) {
 
 // The two pictures have the same formulas, but in OpenGL another program.
 TEST_P(LitProjection, AmbientAloneIsTheUnlitPicture) {
-    const SceneMesh mesh = scene_mesh(test::split_box(6, 500, .1, lit_field));
+    const SceneMesh mesh = scene_mesh(test::split_box(6, 500, .1, waves));
     for (const Coloring coloring : {Coloring::preintegrated, Coloring::analytic}) {
         Scene scene = lit_scene(4, reference_test::ambient_alone());
         scene.project.coloring = coloring;
@@ -128,7 +124,7 @@ TEST_P(LitProjection, TurningAndScalingEverythingChangesNothing) {
     const glm::dmat3 turn({2. / 3, 1. / 3, 2. / 3}, {-2. / 3, 2. / 3, 1. / 3},
                           {-1. / 3, -2. / 3, 2. / 3});
     const double scale = 5;
-    const MeshData data = test::split_box(6, 500, .1, lit_field);
+    const MeshData data = test::split_box(6, 500, .1, waves);
     Scene scene = lit_scene(5, directional());
     const Image truth = trace(scene_mesh(data), scene);
     MeshData turned = data;
@@ -145,7 +141,7 @@ TEST_P(LitProjection, TurningAndScalingEverythingChangesNothing) {
 // New points on the plane have gradients from those of the uncut mesh, linear in its tets.
 TEST_P(LitProjection, ClippedMeshesMeetTheTracer) {
     const auto mesh =
-        std::make_shared<const SceneMesh>(scene_mesh(test::split_box(3, 300, .05, lit_field)));
+        std::make_shared<const SceneMesh>(scene_mesh(test::split_box(3, 300, .05, waves)));
     Scene scene = lit_scene(4, directional());
     for (const test::NamedClip& named : test::clips_of_unit_box()) {
         scene.clip = named.clip;
@@ -158,7 +154,7 @@ TEST_P(LitProjection, ClippedMeshesMeetTheTracer) {
 
 // A tet with a NaN shows nothing, and its neighbours are lit by the gradients of the other tets.
 TEST_P(LitProjection, TetsWithNanLeaveTheirNeighborsLit) {
-    MeshData data = test::split_box(6, 300, .1, lit_field);
+    MeshData data = test::split_box(6, 300, .1, waves);
     data.point_scalars[0].values[20] = NAN;
     const SceneMesh mesh = scene_mesh(data);
     Scene scene = lit_scene(4, directional());
@@ -168,7 +164,7 @@ TEST_P(LitProjection, TetsWithNanLeaveTheirNeighborsLit) {
 
 // Roundings to codes add half a code a tet to the error of light.
 TEST_P(LitProjection, OtherTargetsAreLit) {
-    const SceneMesh mesh = scene_mesh(test::kuhn_box({3, 3, 3}, lit_field));
+    const SceneMesh mesh = scene_mesh(test::kuhn_box({3, 3, 3}, waves));
     Scene scene = lit_scene(.7, directional());
     scene.lighting->diffuse = .4;
     scene.lighting->specular = .2;  // no colour is clamped
@@ -185,7 +181,7 @@ TEST_P(LitProjection, OtherTargetsAreLit) {
 INSTANTIATE_TEST_SUITE_P(BothEngines, LitProjection, both_engines, engine_name);
 
 TEST(LitTets, EveryInstructionSetGivesTheSameBits) {
-    const SceneMesh mesh = scene_mesh(test::split_box(11, 500, 1e-2, lit_field));
+    const SceneMesh mesh = scene_mesh(test::split_box(11, 500, 1e-2, waves));
     const std::vector<std::string> names = instruction_sets();
     for (const Lighting& lighting : lightings()) {
         for (const Coloring coloring : {Coloring::preintegrated, Coloring::analytic}) {
@@ -216,7 +212,7 @@ TEST(LitTets, StayFiniteAtExtremes) {
 }
 
 TEST(LitTets, OmitNothingThatLightNeeds) {
-    const SceneMesh mesh = scene_mesh(test::kuhn_box({2, 2, 2}, lit_field));
+    const SceneMesh mesh = scene_mesh(test::kuhn_box({2, 2, 2}, waves));
     Scene scene = projection_scene(TransferFunction::linear({knot(0, {1, .5, .2}, .5)}), 20, 15);
     scene.camera->eye = {9, -3, 4};
     const auto left_out = [&](const std::string& name) {
@@ -233,7 +229,7 @@ TEST(LitTets, OmitNothingThatLightNeeds) {
 }
 
 TEST(LitTets, SettingsThatCannotBeLitAreRefused) {
-    const SceneMesh mesh = scene_mesh(test::kuhn_box({2, 2, 2}, lit_field));
+    const SceneMesh mesh = scene_mesh(test::kuhn_box({2, 2, 2}, waves));
     const Scene lit = lit_scene(1, Lighting{});
     const auto refused = [&](const auto& change, std::initializer_list<std::string> words) {
         Scene scene = lit;

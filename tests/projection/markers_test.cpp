@@ -9,10 +9,6 @@ namespace {
 
 constexpr double promised = .05;  // of a float32 picture, in 1/255 (docs/precision.md)
 
-double waves(const glm::dvec3& p) {
-    return .5 + .5 * std::sin(5 * p.x + 3 * p.y * p.z);
-}
-
 // Returns a transfer function with points all over the field's values, of random colours. `beyond`:
 // the extinction outside them.
 TransferFunction colorful(int points, double beyond) {

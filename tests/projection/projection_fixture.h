@@ -46,6 +46,14 @@ inline SceneMesh scene_mesh(MeshData data) {
     return {TetMesh(std::move(data), "mesh"), std::move(scalar), false, {}};
 }
 
+// Return fields over the unit box with values in 0 .. 1.
+inline double ripples(const glm::dvec3& p) {
+    return .5 + .5 * std::sin(5 * p.x + 3 * p.y) * std::cos(4 * p.z);
+}
+inline double waves(const glm::dvec3& p) {
+    return .5 + .5 * std::sin(5 * p.x + 3 * p.y * p.z);
+}
+
 using test::knot;
 
 inline Scene projection_scene(const TransferFunction& transfer_function, int width, int height) {

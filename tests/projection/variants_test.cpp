@@ -7,10 +7,6 @@
 namespace lamina {
 namespace {
 
-double variant_field(const glm::dvec3& p) {
-    return .5 + .5 * std::sin(5 * p.x + 3 * p.y) * std::cos(4 * p.z);
-}
-
 TransferFunction smooth() {
     return TransferFunction::linear(
         {knot(0, {.1, .2, .9}, .05), knot(.5, {.2, .9, .3}, .3), knot(1, {.9, .3, .1}, .6)});
@@ -18,7 +14,7 @@ TransferFunction smooth() {
 
 class Variants : public ProjectionTest {
   protected:
-    Variants() : mesh_(scene_mesh(test::split_box(11, 3000, 1e-2, variant_field))) {}
+    Variants() : mesh_(scene_mesh(test::split_box(11, 3000, 1e-2, ripples))) {}
 
     Scene scene(const TransferFunction& transfer_function = smooth()) const {
         Scene scene = projection_scene(transfer_function, 96, 96);

@@ -22,13 +22,11 @@ namespace {
 using reference_test::camera_at;
 using reference_test::make_grid;
 
-const Grid clipped_box = make_grid({2, 2, 2}, Centering::node);
-
 std::vector<View> views() {
     std::vector<View> found;
     for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
         for (const double distance : {1e-3, .4, 2.0})
-            found.emplace_back(camera_at(clipped_box, projection, {.5, .3, 1}, distance), 24, 20);
+            found.emplace_back(camera_at(unit_box, projection, {.5, .3, 1}, distance), 24, 20);
     }
     return found;
 }
@@ -44,7 +42,7 @@ TEST(ClippedTracer, ChordsEndAtThePlanes) {
             for (int y = 0; y < view.height; ++y) {
                 for (int x = 0; x < view.width; ++x) {
                     const View::Ray ray = view.ray(x, y);
-                    ASSERT_NEAR(clip_to_box(clipped_box, ray, clip).world_length(),
+                    ASSERT_NEAR(clip_to_box(unit_box, ray, clip).world_length(),
                                 test::kept_length(named.clip, ray, {0, 0, 0}, {1, 1, 1}),
                                 length_error)
                         << named.name;
@@ -88,7 +86,7 @@ TEST(ClippedTracer, LinearFieldsEqualOneSegment) {
     const MeshData data = test::split_box(5, 3000, 1e-3, field);
     const TetMesh mesh(data, "test");
     const FaceTree tree(mesh, mesh.open_faces());
-    const Volume volume = test::volume_of(clipped_box, [&](double x, double y, double z) {
+    const Volume volume = test::volume_of(unit_box, [&](double x, double y, double z) {
         return field({x, y, z});
     });
     for (const test::NamedClip& named : test::clips_of_unit_box()) {
@@ -101,7 +99,7 @@ TEST(ClippedTracer, LinearFieldsEqualOneSegment) {
             EXPECT_LT(of_mesh.error_estimate, 1e-10);
             for (int y = 0; y < view.height; ++y) {
                 for (int x = 0; x < view.width; ++x) {
-                    const Chord chord = clip_to_box(clipped_box, view.ray(x, y), clip);
+                    const Chord chord = clip_to_box(unit_box, view.ray(x, y), clip);
                     const SegmentIntegral expected =
                         integrate_segment(transfer, field(chord.entry),
                                           field(chord.entry + chord.length_z * chord.direction),

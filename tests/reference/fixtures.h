@@ -40,6 +40,8 @@ inline Grid make_grid(std::array<std::int64_t, 3> size, Centering centering,
     return grid;
 }
 
+inline const Grid unit_box = make_grid({2, 2, 2}, Centering::node);
+
 inline glm::dvec3 middle_of(const Grid& grid) {
     return grid.to_world(0.5 * (grid.index_min() + grid.index_max()));
 }
@@ -59,6 +61,13 @@ inline Camera camera_at(const Grid& grid, Projection projection, const glm::dvec
     camera.fov_y = 60;
     camera.height = 1.1 * diagonal_of(grid);
     return camera;
+}
+
+// Returns views of a grid from outside and from inside, in both projections.
+inline std::vector<Camera> cameras(const Grid& grid) {
+    return {camera_at(grid, Projection::perspective, {1, 2, 3}, 1.2),
+            camera_at(grid, Projection::perspective, {1, -2, 0.5}, 0.1),
+            camera_at(grid, Projection::orthographic, {-3, 1, 1}, 1.2)};
 }
 
 // Makes random numbers in [lo, hi), the same on every platform.

@@ -17,8 +17,6 @@ using namespace reference_test;
 
 constexpr double mesh_tolerance = 1e-11;
 
-const Grid unit_box = make_grid({2, 2, 2}, Centering::node);
-
 TransferFunction peaks(double extinction) {
     return TransferFunction::linear({{0, {glm::dvec3(.1, .8, 0), 0}},
                                      {.3, {glm::dvec3(1, .2, .4), .1 * extinction}},

@@ -33,12 +33,6 @@ Lit noise(Centering centering) {
     return {grid, std::move(samples), random_function(random, 2, 0, 3)};
 }
 
-std::vector<Camera> cameras(const Grid& grid) {
-    return {camera_at(grid, Projection::perspective, {1, 2, 3}, 1.2),
-            camera_at(grid, Projection::perspective, {1, -2, 0.5}, 0.1),
-            camera_at(grid, Projection::orthographic, {-3, 1, 1}, 1.2)};
-}
-
 // The grid is turned, the field linear; values are exact in float32. All rays are parallel, so one
 // q and w hold for all of them.
 TEST(LitVolume, ALinearFieldIsTheUnlitPictureTimesAConstant) {

@@ -17,8 +17,6 @@ namespace {
 using reference_test::camera_at;
 using reference_test::make_grid;
 
-const Grid box_grid = make_grid({2, 2, 2}, Centering::node);
-
 TransferFunction constant_extinction(double extinction) {
     return TransferFunction::linear({{0, {glm::dvec3(.2, .5, 1), extinction}}});
 }
@@ -47,12 +45,12 @@ TEST(MeshTracer, HomogeneousMeshesEqualTheClosedForm) {
             for (const Projection projection :
                  {Projection::perspective, Projection::orthographic}) {
                 for (const double distance : {0.0, .2, 2.0}) {
-                    const View view(camera_at(box_grid, projection, {.5, .3, 1}, distance + 1e-3),
+                    const View view(camera_at(unit_box, projection, {.5, .3, 1}, distance + 1e-3),
                                     24, 20);
                     const TraceResult result = trace(data, constant_extinction(extinction), view);
                     for (int y = 0; y < view.height; ++y)
                         for (int x = 0; x < view.width; ++x) {
-                            const double chord = chord_length(box_grid, view, x, y);
+                            const double chord = chord_length(unit_box, view, x, y);
                             const double alpha = -std::expm1(-extinction * chord);
                             ASSERT_NEAR(result.image.pixel(x, y)[3], alpha,
                                         1e-12 * std::min(1.0, extinction));
@@ -73,14 +71,14 @@ TEST(MeshTracer, LinearFieldsEqualOneSegment) {
     const auto field = [&](const glm::dvec3& p) { return glm::dot(gradient, p); };
     for (const double least : {.1, 1e-6}) {
         const MeshData data = test::split_box(5, 4000, least, field);
-        const View view(camera_at(box_grid, Projection::perspective, {1, .4, .7}, 1.5), 30, 30);
+        const View view(camera_at(unit_box, Projection::perspective, {1, .4, .7}, 1.5), 30, 30);
         const TransferFunction transfer = ramp(6);
         const TraceResult result = trace(data, transfer, view);
         int hits = 0;
         for (int y = 0; y < view.height; ++y)
             for (int x = 0; x < view.width; ++x) {
                 const View::Ray ray = view.ray(x, y);
-                const Chord chord = clip_to_box(box_grid, ray);
+                const Chord chord = clip_to_box(unit_box, ray);
                 const double* const pixel = result.image.pixel(x, y);
                 if (!(chord.length_z > 1e-9)) continue;
                 ++hits;

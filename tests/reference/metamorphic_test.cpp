@@ -35,12 +35,6 @@ Scene make_scene(Centering centering) {
     return {grid, std::move(samples), random_function(random, 3, 2, 3)};
 }
 
-std::vector<Camera> seen_from(const Grid& grid) {
-    return {camera_at(grid, Projection::perspective, {1, 2, 3}, 1.2),
-            camera_at(grid, Projection::perspective, {1, -2, 0.5}, 0.1),
-            camera_at(grid, Projection::orthographic, {-3, 1, 1}, 1.2)};
-}
-
 std::size_t offset(const Grid& grid, const std::array<std::int64_t, 3>& i) {
     return static_cast<std::size_t>((i[2] * grid.size[1] + i[1]) * grid.size[0] + i[0]);
 }
@@ -84,7 +78,7 @@ TEST(Metamorphic, PermutingAndReversingAxesChangesNothing) {
             stored_differently(scene, {0, 1, 2}, {true, false, false}),
             stored_differently(scene, {1, 0, 2}, {false, true, true}),
         };
-        for (const Camera& camera : seen_from(scene.grid)) {
+        for (const Camera& camera : cameras(scene.grid)) {
             const TraceResult expected = scene.trace(camera);
             EXPECT_GT(largest_alpha(expected.image), 0.1);
             for (const Scene& other : others) {
@@ -101,7 +95,7 @@ TEST(Metamorphic, MirroringTheWorldMirrorsThePicture) {
     Scene mirrored = scene;
     mirrored.grid.origin = mirror(scene.grid.origin);
     for (glm::dvec3& step : mirrored.grid.step) step = mirror(step);
-    for (const Camera& camera : seen_from(scene.grid)) {
+    for (const Camera& camera : cameras(scene.grid)) {
         Camera other = camera;
         other.eye = mirror(camera.eye);
         other.center = mirror(camera.center);
@@ -128,7 +122,7 @@ TEST(Metamorphic, ScalingWorldAndExtinctionChangesNothing) {
                                         scene.function.knots().end());
         for (TransferKnot& knot : knots) knot.optics.extinction /= s;
         scaled.function = TransferFunction::linear(knots);
-        for (const Camera& camera : seen_from(scene.grid)) {
+        for (const Camera& camera : cameras(scene.grid)) {
             Camera other = camera;
             other.eye *= s;
             other.center *= s;
@@ -164,7 +158,7 @@ TEST(Metamorphic, RefiningTheGridChangesNothing) {
             }
         }
     }
-    for (const Camera& camera : seen_from(scene.grid)) {
+    for (const Camera& camera : cameras(scene.grid)) {
         const TraceResult a = scene.trace(camera), b = fine.trace(camera);
         EXPECT_LE(largest_difference(a.image, b.image), allowed);
         EXPECT_GT(b.segments, a.segments);
@@ -193,7 +187,7 @@ TEST(Metamorphic, SampleTypesAgree) {
 
 TEST(Metamorphic, NumberOfThreadsDoesNotMatter) {
     const Scene scene = make_scene(Centering::cell);
-    const Camera camera = seen_from(scene.grid).front();
+    const Camera camera = cameras(scene.grid).front();
     const TraceResult many = scene.trace(camera);
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
     const TraceResult one = scene.trace(camera);
@@ -244,7 +238,7 @@ TEST(Metamorphic, CellsThatShowNothingChangeNothing) {
         }
         samples.front() = samples.back() = 1;
         const Volume volume = make_volume<float>(grid, samples);
-        std::vector<Camera> views = seen_from(grid);
+        std::vector<Camera> views = cameras(grid);
         for (const glm::dvec3& along : {glm::dvec3(1, 0, 0), {0, -1, 0}, {0, 0, 1}}) {
             views.push_back(camera_at(grid, Projection::orthographic, along, 1));
             views.back().up = {along.y, along.z, along.x};

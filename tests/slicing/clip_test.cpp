@@ -35,11 +35,6 @@ Volume constant() {
     return generate({"constant", std::array<std::int64_t, 3>{9, 12, 7}, SampleType::uint8});
 }
 
-// Returns the bound of homogeneous_test.cpp.
-double chord_bound(double depth) {
-    return std::min(1e-4 * depth, 1e-5 * std::max(1.0, depth));
-}
-
 using Draw = std::function<Image(const Volume&, const Scene&, const OmissionSwitch&)>;
 
 void expect_clipped_chords(const Draw& draw) {

@@ -71,11 +71,6 @@ TEST_F(SlicingTest, CpuShowsWhatOpenGlShowsFromEverywhere) {
     }
 }
 
-// Returns the bound of homogeneous_test.cpp, whose poses are used here.
-double promised_error(double depth) {
-    return std::min(1e-4 * depth, 1e-5 * std::max(1.0, depth));
-}
-
 TEST(CpuPictureTest, HomogeneousBoxHasTheExactChordsOpacity) {
     const Volume volume =
         generate({"constant", std::array<std::int64_t, 3>{9, 12, 7}, SampleType::uint8});
@@ -105,7 +100,7 @@ TEST(CpuPictureTest, HomogeneousBoxHasTheExactChordsOpacity) {
                                                              std::expm1(-extinction * chord)));
                         }
                     }
-                    EXPECT_LE(worst, promised_error(depth)) << depth << " " << samples;
+                    EXPECT_LE(worst, chord_bound(depth)) << depth << " " << samples;
                 }
             }
         }
@@ -128,7 +123,7 @@ TEST(CpuPictureTest, ThinBoxesHaveTheExactChordsOpacity) {
         for (int column = 0; column < view.width; ++column) {
             EXPECT_NEAR(image.pixel(column, row)[3],
                         -std::expm1(-.3 * chord_length(volume.grid(), view, column, row)),
-                        promised_error(.3));
+                        chord_bound(.3));
         }
     }
 }

@@ -33,13 +33,6 @@ double longest_chord(const Grid& grid, const View& view) {
     return longest;
 }
 
-// Returns the largest error of an opacity, as docs/precision.md promises: relative 1e-4 for faint
-// boxes, 1e-5 of full scale for others, and more for deep ones, because the depth multiplies the
-// chord's rounding to float32.
-double bound(double depth) {
-    return std::min(1e-4 * depth, 1e-5 * std::max(1.0, depth));
-}
-
 void expect_exact_chords(const Volume& volume, const Pose& pose, const Capabilities& capabilities,
                          const OmissionSwitch& omissions) {
     Scene scene = unit_box_scene(smooth_transfer_function(), pose.projection, 61, 47);
@@ -66,8 +59,8 @@ void expect_exact_chords(const Volume& volume, const Pose& pose, const Capabilit
                         worst = std::max(worst, std::abs(alpha + std::expm1(-extinction * chord)));
                     }
                 }
-                EXPECT_LE(worst, bound(depth)) << pose.name << ", depth " << depth << ", "
-                                               << samples << " slabs, " << name_of(order);
+                EXPECT_LE(worst, chord_bound(depth)) << pose.name << ", depth " << depth << ", "
+                                                     << samples << " slabs, " << name_of(order);
             }
         }
     }

@@ -5,15 +5,12 @@
 
 #include <random>
 
+#include "mesh_eyes.h"
 #include "support/delaunay_mesh.h"
 #include "support/split_box.h"
 
 namespace lamina {
 namespace {
-
-double no_field(const glm::dvec3&) {
-    return 0;
-}
 
 // Expects the exact sign of each face, computed for each face alone.
 void expect_exact(const TetMesh& mesh, const Eye& eye) {
@@ -53,7 +50,7 @@ TEST(FaceSigns, SayFromWhichSideFacesAreSeen) {
 }
 
 TEST(FaceSigns, AreExactDespiteRounding) {
-    const TetMesh needles(test::split_box(3, 1000, 1e-9, no_field), "needles");
+    const TetMesh needles(test::split_box(3, 1000, 1e-9, test::no_scalar), "needles");
     const TetMesh delaunay(test::DelaunayMesh::make(400, 5), "delaunay");
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(-1, 2);

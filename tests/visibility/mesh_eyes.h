@@ -10,6 +10,11 @@
 
 namespace lamina::test {
 
+// A scalar for meshes whose order alone is tested.
+inline double no_scalar(const glm::dvec3&) {
+    return 0;
+}
+
 // Returns eyes around and inside a mesh, at infinity, on points of it, and exactly in planes of its
 // faces.
 inline std::vector<Eye> eyes(const TetMesh& mesh, int rounds) {

@@ -16,15 +16,11 @@
 namespace lamina {
 namespace {
 
-double zero_field(const glm::dvec3&) {
-    return 0;
-}
-
 TetMesh carved_kuhn() {
     const auto no_bar = [](const glm::dvec3& c) {
         return c.x < 2 || c.x > 4 || c.y < 3 || c.y > 5;
     };
-    return {test::carved(test::kuhn_box({6, 8, 5}, zero_field), no_bar), "ring"};
+    return {test::carved(test::kuhn_box({6, 8, 5}, test::no_scalar), no_bar), "ring"};
 }
 
 TetMesh carved_delaunay(int points, unsigned share) {
@@ -36,7 +32,7 @@ TetMesh carved_delaunay(int points, unsigned share) {
 
 // Returns two boxes with this gap between them; if it is 0, they touch.
 TetMesh two_boxes(double gap) {
-    MeshData mesh = test::kuhn_box({1, 1, 1}, zero_field), other = mesh;
+    MeshData mesh = test::kuhn_box({1, 1, 1}, test::no_scalar), other = mesh;
     const auto first = static_cast<std::int32_t>(mesh.points.size());
     for (const glm::dvec3& point : other.points)
         mesh.points.push_back(point + glm::dvec3(1 + gap, 0, 0));
@@ -71,7 +67,7 @@ std::vector<std::int32_t> gap_faces_of_all(const TetMesh& mesh) {
 }
 
 TEST(GapFaces, DoNotExistInConvexMeshes) {
-    const TetMesh box(test::kuhn_box({8, 7, 6}, zero_field), "kuhn");
+    const TetMesh box(test::kuhn_box({8, 7, 6}, test::no_scalar), "kuhn");
     const TetMesh delaunay(test::DelaunayMesh::make(3000, 7), "delaunay");
     const TetMesh prism(test::twisted_prism(-20), "prism");
     for (const TetMesh* mesh : {&box, &delaunay, &prism}) EXPECT_TRUE(gap_faces(*mesh).empty());
@@ -92,7 +88,7 @@ TEST(GapFaces, AreThoseWithSomethingOutside) {
 // have other faces of the side outside of their planes; if outwards, the other faces have the point
 // outside of theirs, too.
 TEST(GapFaces, SeeADentOfAnUlp) {
-    MeshData data = test::kuhn_box({4, 4, 4}, zero_field);
+    MeshData data = test::kuhn_box({4, 4, 4}, test::no_scalar);
     const auto at = static_cast<std::size_t>(std::ranges::find(data.points, glm::dvec3(2, 2, 4)) -
                                              data.points.begin());
     ASSERT_LT(at, data.points.size());

@@ -19,10 +19,6 @@
 namespace lamina {
 namespace {
 
-double nothing(const glm::dvec3&) {
-    return 0;
-}
-
 void expect_no_violation(const TetMesh& mesh, OrderMethod method, int rounds) {
     VisibilityOrder order(mesh, method);
     for (const Eye& eye : test::eyes(mesh, rounds)) {
@@ -42,7 +38,7 @@ TEST(VisibilityOrder, DelaunayMeshesHaveNoViolation) {
 }
 
 TEST(VisibilityOrder, RegularMeshesHaveNoViolation) {
-    const TetMesh mesh(test::kuhn_box({8, 7, 6}, nothing), "kuhn");
+    const TetMesh mesh(test::kuhn_box({8, 7, 6}, test::no_scalar), "kuhn");
     expect_no_violation(mesh, OrderMethod::mpvo, 12);
     expect_no_violation(mesh, OrderMethod::exact, 4);
 }
@@ -54,7 +50,7 @@ TEST(VisibilityOrder, CarvedMeshesHaveNoViolation) {
     const auto no_bar = [](const glm::dvec3& c) {
         return c.x < 2 || c.x > 4 || c.y < 3 || c.y > 5;
     };
-    const TetMesh ring(test::carved(test::kuhn_box({6, 8, 5}, nothing), no_bar), "ring");
+    const TetMesh ring(test::carved(test::kuhn_box({6, 8, 5}, test::no_scalar), no_bar), "ring");
     ASSERT_FALSE(convex(ring));
     std::mt19937 random(3);
     const TetMesh sponge(test::carved(test::DelaunayMesh::make(250, 9),
@@ -100,7 +96,7 @@ TEST(OrderCheck, CountsEveryWrongFace) {
 }
 
 TEST(OrderCheck, RefusesListsThatAreNoOrder) {
-    const TetMesh mesh(test::kuhn_box({1, 1, 1}, nothing), "box");
+    const TetMesh mesh(test::kuhn_box({1, 1, 1}, test::no_scalar), "box");
     const std::vector<std::int32_t> few{0, 1, 2}, twice{0, 1, 2, 3, 4, 4}, beyond{0, 1, 2, 3, 4, 6};
     expect_error([&] { face_violations(mesh, {}, few); }, {"3", "6"});
     expect_error([&] { face_violations(mesh, {}, twice); }, {"place 5", "tet 4"});
