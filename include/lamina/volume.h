@@ -38,6 +38,8 @@ struct LAMINA_API Grid {
     std::array<glm::dvec3, 3> step{glm::dvec3{1, 0, 0}, glm::dvec3{0, 1, 0},
                                    glm::dvec3{0, 0, 1}};  // orthogonal
     WorldAxes axes = WorldAxes::unnamed;                  // used by the automatic camera only
+    // Unit of lengths in the world, as the file names it, such as "mm"; empty if it names none.
+    std::string unit;
 
     std::int64_t sample_count() const { return size[0] * size[1] * size[2]; }
     glm::dvec3 index_min() const;  // lowest corner of the box, index space

@@ -28,6 +28,8 @@ void write_nrrd_header(AtomicFile& file, const Grid& grid, SampleType type) {
     text += fmt::format("sizes: {} {} {}\n", grid.size[0], grid.size[1], grid.size[2]);
     text += fmt::format("space directions: {} {} {}\n", vector_text(grid.step[0]),
                         vector_text(grid.step[1]), vector_text(grid.step[2]));
+    if (!grid.unit.empty())
+        text += fmt::format("space units: \"{0}\" \"{0}\" \"{0}\"\n", grid.unit);
     text += fmt::format("centers: {} {} {}\n", centering_text(grid.centering[0]),
                         centering_text(grid.centering[1]), centering_text(grid.centering[2]));
     text += "kinds: domain domain domain\n";

@@ -231,7 +231,9 @@ glm::dvec3 vector_in(const Json& json) {
 }
 
 Json json_of(const Grid& grid) {
-    Json json{{"origin", json_of(grid.origin)}, {"axes", static_cast<int>(grid.axes)}};
+    Json json{{"origin", json_of(grid.origin)},
+              {"axes", static_cast<int>(grid.axes)},
+              {"unit", grid.unit}};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         json["step"].push_back(json_of(grid.step[axis]));
         json["cell_centered"].push_back(grid.centering[axis] == Centering::cell);
@@ -243,6 +245,7 @@ Grid grid_in(const Json& json, const ZarrArray& array) {
     Grid grid;
     grid.origin = vector_in(json.at("origin"));
     grid.axes = static_cast<WorldAxes>(std::clamp(json.at("axes").get<int>(), 0, 3));
+    grid.unit = json.value("unit", std::string());
     for (std::size_t axis = 0; axis < 3; ++axis) {
         grid.size[axis] = array.shape.at(2 - axis);
         grid.step[axis] = vector_in(json.at("step").at(axis));
@@ -347,7 +350,7 @@ std::optional<Volume> open_bricked_copy(const Path& file, const VolumeRequest& r
         const ZarrArray array = read_zarray(folder);
         const auto type = drawn_type(array.type);
         if (array.shape.size() != 3 || !type) return is_not_used("damaged");
-        const Grid grid = grid_in(about.at("grid"), array);
+        Grid grid = grid_in(about.at("grid"), array);
         check_grid(folder.string(), grid, {"step", "origin"});
         if (!stays_in_files(grid, *type, use)) return {};
         if (about.at("of") != copied(file, request)) return is_not_used("of other samples");

@@ -300,11 +300,32 @@ StoredAxis taken_axis(const std::string& file, const char* what,
     return {count, wanted.value_or(0), what, wanted.has_value()};
 }
 
+StoredAxis unnamed_axis(const std::string& file, const std::optional<std::int64_t>& channel,
+                        const std::optional<std::int64_t>& time, std::int64_t count) {
+    constexpr std::int64_t most_channels = 4;  // R, G, B, A, or as many dyes
+    const bool channels = channel || (!time && count > 1 && count <= most_channels);
+    StoredAxis axis = channels ? taken_axis(file, "channel", channel, count)
+                               : taken_axis(file, "time", time, count);
+    if (channels && time) taken_axis(file, "time", time, 1);
+    axis.unnamed = true;
+    return axis;
+}
+
 void say_taken(const std::string& file, Axes axes) {
     for (const StoredAxis& axis : axes) {
         if (!axis.taken || axis.given || axis.size == 1) continue;
-        warn(fmt::format("{}: {} 0 of {} is taken: \"{}\" in the volume names another", file,
-                         axis.what, axis.size, axis.what));
+        if (axis.unnamed) {
+            const bool channels = std::string_view(axis.what) == "channel";
+            warn(
+                fmt::format("{}: the axis of {} has no name and is taken for {}s, of which 0 is "
+                            "shown: \"{}\" in the volume names another, \"{}\" takes the axis "
+                            "for {}s",
+                            file, axis.size, axis.what, axis.what, channels ? "time" : "channel",
+                            channels ? "time" : "channel"));
+        } else {
+            warn(fmt::format("{}: {} 0 of {} is taken: \"{}\" in the volume names another", file,
+                             axis.what, axis.size, axis.what));
+        }
     }
 }
 

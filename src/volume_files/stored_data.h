@@ -25,6 +25,7 @@ struct StoredAxis {
     std::optional<std::int64_t> taken;  // the only index that is read; empty: all are
     const char* what;                   // "channel" or "time", if `taken` is set
     bool given;                         // the request names `taken`
+    bool unnamed = false;               // the file does not say what the axis is
 };
 
 // Makes an axis of `count` channels or times (`what`: "channel" or "time", the request's key, too),
@@ -32,7 +33,13 @@ struct StoredAxis {
 StoredAxis taken_axis(const std::string& file, const char* what,
                       const std::optional<std::int64_t>& wanted, std::int64_t count);
 
-// Warns of each axis of which index 0 is taken only because the request names none.
+// Makes the axis of `count` that a file does not name: what the request chooses by, else channels
+// if there are 2 to 4, else times.
+StoredAxis unnamed_axis(const std::string& file, const std::optional<std::int64_t>& channel,
+                        const std::optional<std::int64_t>& time, std::int64_t count);
+
+// Warns of each axis of which index 0 is taken only because the request names none, and of
+// each that the file does not name.
 void say_taken(const std::string& file, std::span<const StoredAxis> axes);
 
 // Returns the number of bytes of an array, or, if `taken_only`, of what is taken of it. Throws

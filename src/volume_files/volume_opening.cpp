@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "volume/volume_store.h"
@@ -21,13 +23,69 @@ namespace {
 // digits, and this moves samples by less than a hundredth of a voxel over 1000 voxels.
 constexpr double orthogonal_cosine = 1e-5;
 
+// Largest deviation from a right angle that is mended, in degrees: headers that round to 3 digits,
+// and registrations, cause no more.
+constexpr double mended_degrees = 0.1;
+
 // Steps outside of this range would overflow or vanish when squared.
 constexpr double shortest_step = 1e-100;
 constexpr double longest_step = 1e100;
 
+// Returns the orthogonal directions nearest to `directions`, the factor of their polar
+// decomposition, by Newton's iteration X -> (X + X^-T) / 2 (Higham, Computing the polar
+// decomposition, SIAM J. Sci. Stat. Comput. 7, 1986, section 3).
+glm::dmat3 nearest_orthogonal(glm::dmat3 directions) {
+    // The iteration squares the error, at most .002 at first: after 4 steps it is below rounding.
+    for (int round = 0; round < 5; ++round)
+        directions = 0.5 * (directions + glm::transpose(glm::inverse(directions)));
+    return directions;
+}
+
+// Returns how far the samples of `to` lie at most from those of `from`: the largest distance
+// between the corners of both, because the distance is convex.
+double largest_shift(const Grid& from, const Grid& to) {
+    double largest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        glm::dvec3 index{0};
+        for (int axis = 0; axis < 3; ++axis) {
+            if ((corner >> axis & 1) != 0)
+                index[axis] = static_cast<double>(from.size[static_cast<std::size_t>(axis)] - 1);
+        }
+        largest = std::max(largest, glm::distance(from.to_world(index), to.to_world(index)));
+    }
+    return largest;
+}
+
+void make_orthogonal(const std::string& file, Grid& grid, const GridWords& words) {
+    glm::dmat3 directions;
+    for (std::size_t i = 0; i < 3; ++i)
+        directions[static_cast<int>(i)] = glm::normalize(grid.step[i]);
+    double worst = 0;  // in degrees
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        const double cosine = glm::dot(directions[i], directions[j]);
+        const double beyond = glm::degrees(std::asin(std::clamp(std::abs(cosine), 0.0, 1.0)));
+        if (beyond > mended_degrees) {
+            fail("{}: {}: axes {} and {} meet at {:.4f} degrees, expected 90", file,
+                 words.directions, std::min(i, j), std::max(i, j),
+                 glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0))));
+        }
+        worst = std::max(worst, beyond);
+    }
+    if (worst <= glm::degrees(orthogonal_cosine)) return;
+    const Grid found = grid;
+    const glm::dmat3 orthogonal = nearest_orthogonal(directions);
+    for (std::size_t i = 0; i < 3; ++i)
+        grid.step[i] = orthogonal[static_cast<int>(i)] * glm::length(grid.step[i]);
+    warn(
+        fmt::format("{}: {}: axes are up to {:.2g} degrees from right angles: the nearest "
+                    "orthogonal ones are taken, which moves samples by up to {:.2g}",
+                    file, words.directions, worst, largest_shift(found, grid)));
+}
+
 }  // namespace
 
-void check_grid(const std::string& file, const Grid& grid, const GridWords& words) {
+void check_grid(const std::string& file, Grid& grid, const GridWords& words) {
     for (std::size_t i = 0; i < 3; ++i) {
         const double length = std::hypot(grid.step[i].x, grid.step[i].y, grid.step[i].z);
         if (!(length >= shortest_step && length <= longest_step)) {
@@ -39,15 +97,7 @@ void check_grid(const std::string& file, const Grid& grid, const GridWords& word
                  grid.origin[static_cast<int>(i)], longest_step);
         }
     }
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3;
-        const double cosine = glm::dot(glm::normalize(grid.step[i]), glm::normalize(grid.step[j]));
-        if (std::abs(cosine) > orthogonal_cosine) {
-            fail("{}: {}: axes {} and {} meet at {:.4f} degrees, expected 90", file,
-                 words.directions, std::min(i, j), std::max(i, j),
-                 glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0))));
-        }
-    }
+    make_orthogonal(file, grid, words);
 }
 
 void turn_to_lps(Grid& grid, WorldAxes axes) {
@@ -57,6 +107,19 @@ void turn_to_lps(Grid& grid, WorldAxes axes) {
     grid.origin *= turn;
     for (glm::dvec3& step : grid.step) step *= turn;
     grid.axes = WorldAxes::left_posterior_superior;
+}
+
+std::string unit_word(std::string_view found) {
+    constexpr std::string_view blanks = " \t\r\n";
+    constexpr std::size_t longest = 32;
+    const std::size_t first = found.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    found = found.substr(first, found.find_last_not_of(blanks) - first + 1);
+    const bool is_word =
+        found.size() <= longest && std::ranges::none_of(found, [](char letter) {
+            return static_cast<unsigned char>(letter) < ' ' || letter == '"' || letter == '\\';
+        });
+    return is_word ? std::string(found) : std::string();
 }
 
 namespace {

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "lamina/volume.h"
 #include "volume/sample_source.h"
@@ -28,12 +30,26 @@ struct GridWords {
 };
 
 // Throws Error unless all steps are finite, neither vanish nor overflow when squared, and are
-// orthogonal up to headers' digits. They may be oblique and mirrored. `file`: for messages.
-void check_grid(const std::string& file, const Grid& grid, const GridWords& words);
+// orthogonal within .1 degree. They may be oblique and mirrored. Directions that headers' digits do
+// not explain are turned to the nearest orthogonal ones, and a warning says how far that moves
+// samples. `file`: for messages.
+void check_grid(const std::string& file, Grid& grid, const GridWords& words);
 
 // Converts a grid from world axes `axes` to those of DICOM (LPS), which are lamina's. Samples stay
 // at their places in the body. A grid in unnamed axes stays as it is.
 void turn_to_lps(Grid& grid, WorldAxes axes);
+
+// Returns a unit as Grid::unit has it: without blanks around it; empty if what was found in a file
+// is no such word: longer than 32 bytes, or with control characters or quotes.
+std::string unit_word(std::string_view found);
+
+// Lists what a file has of which a volume is one part, with the file's names; a part without a name
+// has an empty one.
+struct VolumeContents {
+    std::vector<std::string> arrays, channels, times;
+    std::vector<std::array<std::int64_t, 3>> levels;  // their samples along x, y and z
+    bool is_colour = false;                           // the channels are R, G, B (and A)
+};
 
 // The use for which a volume is opened, and so where its samples are to be.
 struct VolumeUse {
@@ -44,7 +60,8 @@ struct VolumeUse {
         in_order,  // in its files if these can be read once, in order
     };
     Residence residence = Residence::in_memory;
-    bool lit = false;  // drawing takes memory for gradients, too
+    bool lit = false;                    // drawing takes memory for gradients, too
+    VolumeContents* contents = nullptr;  // if set, filled by the reader
 };
 
 // Tells if a volume that can stay in its files is to do so: by use.residence; for as_fits, if it

@@ -114,6 +114,8 @@ Json describe(const Volume& volume, const MinMaxBricks& bricks, const ValueStati
     info["spacing"] = json_vector(
         {glm::length(grid.step[0]), glm::length(grid.step[1]), glm::length(grid.step[2])});
     info["origin"] = json_vector(grid.origin);  // centre of the first sample
+    info["unit"] = nullptr;                     // null: the file names none
+    if (!grid.unit.empty()) info["unit"] = grid.unit;
     add_statistics(statistics, info);
     return info;
 }
