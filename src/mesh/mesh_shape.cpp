@@ -214,8 +214,8 @@ class OverlapSearch {
             parts.push_back(face);
         }
         if (parts.size() == 1) return;
-        const std::int64_t step = std::ssize(parts) / most_lines + 1;
-        parallel_for(std::ssize(parts) / step, lines_per_task, [&](std::int64_t index) {
+        const std::int64_t step = (std::ssize(parts) - 1) / most_lines + 1;
+        parallel_for((std::ssize(parts) - 1) / step + 1, lines_per_task, [&](std::int64_t index) {
             const TetFace& face = parts[index * step];
             const auto [a, b, c] = mesh_.corners(face);
             RayWalk walk(mesh_, tree_);

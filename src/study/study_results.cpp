@@ -130,7 +130,7 @@ RunResult result_of(std::size_t number, const RunRecords& run) {
 }
 
 // Adds the result of the first journal that is complete for this run or, if there is none, the
-// message of its failure.
+// message of the last failure.
 void add_result(const RunList& list, std::size_t number,
                 const std::vector<JournalRecords>& journals, std::vector<RunResult>& results) {
     const StudyRun& run = list.runs[number];
@@ -145,7 +145,7 @@ void add_result(const RunList& list, std::size_t number,
                 results.back().ratio = ratio_to(found->second, baseline->second);
             return;
         }
-        failed.failed = found->second.failed;
+        if (!found->second.failed.empty()) failed.failed = found->second.failed;
     }
     if (failed.failed.empty()) return;
     failed.run = number;

@@ -59,6 +59,14 @@ TEST(MeshOverlap, CountsPartsInsideOthers) {
     EXPECT_GE(overlapping(both(tet_at({.1, .1, .1}, .1), tet_at({0, 0, 0}, 1))), 1);
 }
 
+TEST(MeshOverlap, FindsOneInnerPartAmongFiveHundred) {
+    // The largest number of parts of which each is tested. No line through the outer tet meets the
+    // inner one, the second part.
+    MeshData mesh = both(tet_at({0, 0, 0}, 1), tet_at({.05, .05, .7}, .05));
+    for (int i = 2; i < 500; ++i) mesh = both(mesh, tet_at({2.0 * i, 0, 0}, 1));
+    EXPECT_GE(overlapping(mesh), 1);
+}
+
 TEST(MeshOverlap, CountsFoldedFaces) {
     MeshData folded = tet_at({0, 0, 0}, 1);
     folded.points.emplace_back(.2, .2, .5);
