@@ -41,6 +41,7 @@ struct VolumeFile {
 struct MeshFile {
     std::filesystem::path path;
     std::int64_t time = 0;  // step in time of a .pvd, counted from 0
+    double join = 0;  // world units: points this near to an earlier one are moved to its place
 
     bool operator==(const MeshFile&) const = default;
 };

@@ -20,6 +20,10 @@ namespace lamina {
 // voxel wide with either.
 enum class Centering { node, cell };
 
+// The field between samples. linear: trilinear. nearest: each sample's value holds in its voxel,
+// half a step around it; for labels, between which no other values lie.
+enum class VolumeLookup { linear, nearest };
+
 // Directions in a patient's body in which the world's x, y and z grow, if the file says so. In all
 // named ones z grows towards the head.
 enum class WorldAxes {
@@ -30,7 +34,9 @@ enum class WorldAxes {
 };
 
 // Places of the samples of a regular grid in the world. In index space sample (i, j, k) lies at (i,
-// j, k). `centering` sets the extent of the rendered box along each axis.
+// j, k); if `lookup` is nearest, its voxel reaches from there to (i + 1, j + 1, k + 1). So cells of
+// the field lie between whole numbers with both. `centering` sets the extent of the rendered box
+// along each axis.
 struct LAMINA_API Grid {
     std::array<std::int64_t, 3> size{1, 1, 1};
     std::array<Centering, 3> centering{Centering::node, Centering::node, Centering::node};
@@ -40,10 +46,12 @@ struct LAMINA_API Grid {
     WorldAxes axes = WorldAxes::unnamed;                  // used by the automatic camera only
     // Unit of lengths in the world, as the file names it, such as "mm"; empty if it names none.
     std::string unit;
+    VolumeLookup lookup = VolumeLookup::linear;
 
     std::int64_t sample_count() const { return size[0] * size[1] * size[2]; }
     glm::dvec3 index_min() const;  // lowest corner of the box, index space
     glm::dvec3 index_max() const;
+    glm::dvec3 index_origin() const;  // world position of index (0, 0, 0)
     glm::dvec3 to_world(const glm::dvec3& index) const;
     glm::dvec3 to_index(const glm::dvec3& world) const;
     // Converts a direction: without translation.
@@ -140,7 +148,8 @@ struct LAMINA_API VolumeRequest {
     // Distances between samples, above 0, and place of the first one, instead of the file's.
     std::optional<glm::dvec3> spacing;
     std::optional<glm::dvec3> origin;
-    std::optional<RawLayout> raw;  // must be given if the file has no header
+    std::optional<RawLayout> raw;        // must be given if the file has no header
+    std::optional<VolumeLookup> lookup;  // linear unless given
 
     bool operator==(const VolumeRequest&) const = default;
 };
@@ -151,6 +160,7 @@ struct GeneratorRequest {
     // Samples along x, y and z. Without a size a volume has 128^3 samples, and a ramp 256 x 4 x 1.
     std::optional<std::array<std::int64_t, 3>> size;
     SampleType type = SampleType::uint8;  // or uint16, float32
+    VolumeLookup lookup = VolumeLookup::linear;
 
     bool operator==(const GeneratorRequest&) const = default;
 };

@@ -31,7 +31,8 @@ class Volume:
     and so on. The other arguments are always in the order x, y, z. ``spacing`` (> 0) and ``origin`` (the position of
     the first sample) are in world units. ``directions``: unit vectors along the array's x, y and z, perpendicular to
     each other. ``centers``: with ``"node"`` the box spans the samples, with ``"cell"`` it spans whole voxels, half a
-    voxel more at each end.
+    voxel more at each end. ``lookup``: with ``"linear"`` the field between samples is trilinear, with ``"nearest"`` it
+    is constant in each sample's voxel, for labels.
 
     Contiguous arrays (contiguous as ``array[z, y, x]``: for ``axes="xyz"`` that is Fortran order) of uint8, int16,
     uint16 and float32 in native byte order are not copied: do not change them while they are drawn. If an array was
@@ -61,7 +62,7 @@ class Volume:
     def __init__(self, array: Any, spacing: float | Sequence[float] = (1, 1, 1),
                  origin: Sequence[float] = (0, 0, 0), axes: str = "zyx", *,
                  directions: Any = ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
-                 centers: str | Sequence[str] = "node") -> None:
+                 centers: str | Sequence[str] = "node", lookup: str = "linear") -> None:
         ordered = _conversion.array_zyx(array, axes)
         step_vectors = [tuple(length * number for number in direction) for length, direction
                         in zip(_conversion.spacing_of(spacing), _conversion.directions_of(directions))]
@@ -70,7 +71,7 @@ class Volume:
         samples, self._conversion = _conversion.drawn_array(ordered)
         if self._conversion:
             warn(self._conversion, PrecisionWarning)
-        self._core = _lamina.Volume.over(np.asarray(samples), step_vectors, first_sample, centerings)
+        self._core = _lamina.Volume.over(np.asarray(samples), step_vectors, first_sample, centerings, lookup)
         is_shared = np.shares_memory(samples, ordered)
         self._changeable: np.ndarray | None = samples if is_shared and can_be_written(samples) else None
         self._file: pathlib.Path | None = None
@@ -127,6 +128,11 @@ class Volume:
         return x, y, z
 
     @property
+    def lookup(self) -> str:
+        """``"linear"`` or ``"nearest"``: the field between samples."""
+        return self._core.lookup
+
+    @property
     def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Smallest and largest corner of the box that is drawn, in world units."""
         lowest, highest = (_conversion.triple("bounds", corner) for corner in self._core.bounds)
@@ -151,7 +157,8 @@ class Volume:
         >>> int(volume.array.max())
         0
         """
-        core = _lamina.Volume.over(np.array(self.array), self._core.steps, self._core.origin, self._core.centers)
+        core = _lamina.Volume.over(np.array(self.array), self._core.steps, self._core.origin, self._core.centers,
+                                   self._core.lookup)
         volume = Volume._of(core, self._file, self._source)
         volume._conversion = self._conversion
         return volume

@@ -43,6 +43,8 @@ class VolumeKeys(TypedDict, total=False):
     - ``generate``
     - ``type``: Default: "uint8".
     - ``size``: Samples of a file without a header.
+    - ``lookup``: Between samples: linear is trilinear; nearest is constant in each sample's voxel, for labels.
+      Default: "linear".
     - ``path``
     - ``array``: By its name; the first unless given.
     - ``level``: Of a pyramid. Default: 0.
@@ -58,6 +60,7 @@ class VolumeKeys(TypedDict, total=False):
     type: Union[Literal["uint8", "uint16", "float"], Literal["int8", "uint8", "int16", "uint16", "int32", "uint32", "int64",
                 "uint64", "float", "double"]]
     size: Vector
+    lookup: Literal["linear", "nearest"]
     path: Union[str, os.PathLike[str]]
     array: str
     level: int
@@ -74,6 +77,7 @@ class MeshKeys(TypedDict, total=False):
 
     - ``path``
     - ``time``: Step of a .pvd, counted from 0 in the order of time. Default: 0.
+    - ``join``: Points this near to an earlier one are moved to its place (world units). Default: 0.
     - ``tolerance``: Largest difference from the trilinear field, of the volume's range of values. Default: 0.02.
     - ``max_tets``: The making of the mesh stops at so many. Default: 5000000.
     - ``kuhn``: Every sample, six tets a cell. Default: false.
@@ -81,6 +85,7 @@ class MeshKeys(TypedDict, total=False):
 
     path: Union[str, os.PathLike[str]]
     time: int
+    join: float
     tolerance: float
     max_tets: int
     kuhn: bool

@@ -31,9 +31,15 @@ Centering centering_of(const std::string& word) {
     throw py::value_error("centers: found \"" + word + "\", expected \"node\" or \"cell\"");
 }
 
+VolumeLookup lookup_of(const std::string& word) {
+    if (word == "linear") return VolumeLookup::linear;
+    if (word == "nearest") return VolumeLookup::nearest;
+    throw py::value_error("lookup: found \"" + word + "\", expected \"linear\" or \"nearest\"");
+}
+
 // The array is C contiguous, z first; the package's Python code has made it so.
 Volume volume_over(const py::array& array, const std::array<Vector, 3>& steps, const Vector& origin,
-                   const std::array<std::string, 3>& centers) {
+                   const std::array<std::string, 3>& centers, const std::string& lookup) {
     const auto type = sample_type(array.dtype());
     if (!type || array.ndim() != 3 || (array.flags() & py::array::c_style) == 0)
         throw py::type_error("expected a contiguous array [z, y, x] of a type that is drawn");
@@ -44,6 +50,7 @@ Volume volume_over(const py::array& array, const std::array<Vector, 3>& steps, c
         grid.centering[axis] = centering_of(centers[axis]);
     }
     grid.origin = to_glm(origin);
+    grid.lookup = lookup_of(lookup);
     return {grid, *type, keep(array, array.data())};
 }
 
@@ -87,7 +94,7 @@ void bind_volume(py::module_& module) {
         py::arg("array"), py::arg("part"));
     py::class_<Volume>(module, "Volume")
         .def_static("over", &volume_over, py::arg("array"), py::arg("steps"), py::arg("origin"),
-                    py::arg("centers"))
+                    py::arg("centers"), py::arg("lookup") = "linear")
         .def_static(
             "load",
             [](const std::string& scene, const std::string& only_below) {
@@ -107,6 +114,11 @@ void bind_volume(py::module_& module) {
         .def_property_readonly("origin",
                                [](const Volume& volume) { return from_glm(volume.grid().origin); })
         .def_property_readonly("centers", &centers_of)
+        .def_property_readonly("lookup",
+                               [](const Volume& volume) {
+                                   const bool linear = volume.grid().lookup == VolumeLookup::linear;
+                                   return std::string(linear ? "linear" : "nearest");
+                               })
         .def_property_readonly("bounds", &bounds_of);
 }
 

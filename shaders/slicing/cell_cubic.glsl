@@ -59,6 +59,19 @@ bool has_nan(Corners corners) {
     return is_nan((sums.x + sums.y) + (sums.z + sums.w));
 }
 
+#ifdef NEAREST_LOOKUP
+// Returns the normalised scalar in a voxel, as coefficients of a cubic. Beyond the samples (`cell`
+// axes) the border value repeats. `transparent`: true if NaN is transparent and it is the sample.
+vec4 cell_cubic(ivec3 voxel, vec3 place, vec3 change, out bool transparent) {
+    float code = fetch_code(clamp(voxel, ivec3(0), ivec3(last_sample)));
+#ifdef NAN_TRANSPARENT
+    transparent = is_nan(code);
+#else
+    transparent = false;
+#endif
+    return transparent ? vec4(0.0) : vec4((code - code_normalisation.x) * code_normalisation.y, 0.0, 0.0, 0.0);
+}
+#else
 // Returns the normalised scalar, as coefficients of a cubic, along the part of a ray from `place`,
 // counted from the cell's lowest corner, to place + change. Beyond the samples (`cell` axes) the
 // border value repeats. `transparent`: true if NaN is transparent and a corner is NaN.
@@ -76,3 +89,4 @@ vec4 cell_cubic(ivec3 cell, vec3 place, vec3 change, out bool transparent) {
 #endif
     return cubic * code_normalisation.y;
 }
+#endif

@@ -61,7 +61,10 @@ struct ShareCounter {
     double extinction_near(const glm::dvec3& at) const {
         std::array<std::int64_t, 3> place{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto nearest = std::llround(at[static_cast<int>(axis)]);
+            const double index = at[static_cast<int>(axis)];
+            const auto nearest = facts.grid.lookup == VolumeLookup::nearest
+                                     ? static_cast<std::int64_t>(std::floor(index))
+                                     : std::llround(index);
             place[axis] = std::clamp<std::int64_t>(nearest, 0, volume.grid().size[axis] - 1);
         }
         const double value = scattered_sample(volume, place);
@@ -134,7 +137,9 @@ struct RaySampler {
 
     double scalar_at(const glm::dvec3& place) const {
         const glm::dvec3 index = glm::clamp(place, grid.index_min(), grid.index_max());
-        const glm::dvec3 cell = glm::floor(index), weight = index - cell;
+        const glm::dvec3 cell = glm::floor(index);
+        const bool voxels = grid.lookup == VolumeLookup::nearest;
+        const glm::dvec3 weight = voxels ? glm::dvec3(0) : index - cell;
         std::array<std::int64_t, 3> lower{}, upper{};
         for (int axis = 0; axis < 3; ++axis) {
             const auto i = static_cast<std::size_t>(axis);

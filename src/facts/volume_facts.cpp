@@ -331,7 +331,7 @@ std::vector<IndexPlane> index_planes(const Clip& clip, const Grid& grid) {
         // Hypot() does not underflow if voxels are tiny.
         const double length = std::hypot(slope.x, slope.y, slope.z);
         planes.push_back(
-            {slope / length, glm::dot(half.normal, grid.origin - half.point) / length});
+            {slope / length, glm::dot(half.normal, grid.index_origin() - half.point) / length});
     }
     return planes;
 }

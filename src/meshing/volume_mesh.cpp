@@ -410,6 +410,12 @@ void place_in_world(MeshData& mesh, const Grid& grid) {
 
 MeshData make_volume_mesh(const Volume& volume, const MeshSettings& settings,
                           const TransferFunction* transfer_function, MeshReport& report) {
+    if (volume.grid().lookup == VolumeLookup::nearest) {
+        fail(
+            "mesh: found a volume with \"lookup\": \"nearest\", expected \"linear\": fields of "
+            "tets "
+            "are linear, not constant in each voxel");
+    }
     const TrilinearField field(volume);
     const CellRanges ranges(field);
     const InterpolationError error(field, ranges, transfer_function);

@@ -88,12 +88,13 @@ double scalar_at(const Volume& volume, const glm::dvec3& index) {
 }
 
 // Returns the field at a sample; samples outside the grid repeat the border's. Gradients are
-// differences of neighbours that exist and are finite (docs/numerics.md, section 10).
+// differences of neighbours that exist and are finite (docs/numerics.md, section 10); 0 in voxels.
 Field field_at(const Volume& volume, const glm::dvec3& place) {
-    const glm::dvec3 last = glm::floor(volume.grid().index_max());
+    const auto& size = volume.grid().size;
+    const glm::dvec3 last = glm::dvec3(size[0], size[1], size[2]) - 1.;
     const glm::dvec3 index = glm::clamp(place, glm::dvec3(0), last);
     Field found(0, 0, 0, scalar_at(volume, index));
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3 && volume.grid().lookup == VolumeLookup::linear; ++axis) {
         glm::dvec3 low = index, high = index;
         if (--low[axis] < 0 || !std::isfinite(scalar_at(volume, low))) low = index;
         if (++high[axis] > last[axis] || !std::isfinite(scalar_at(volume, high))) high = index;
@@ -114,11 +115,13 @@ Cubic<Field> mixed(Cubic<Field> a, const Cubic<Field>& b, double x0, double x1) 
 }
 
 // Cuts a ray at all planes of samples. The field of a cell is trilinear (docs/numerics.md, section
-// 9): it is mixed along one axis after the other, and NaN if a corner is NaN.
+// 9): it is mixed along one axis after the other, and NaN if a corner is NaN. With "lookup":
+// "nearest" a cell is a voxel, and all its corners are its sample.
 std::vector<Segment> meet(const Volume& volume, const View::Ray& world, Span seen) {
     const Grid& grid = volume.grid();
     const View::Ray ray{grid.to_index(world.origin), grid.direction_to_index(world.direction)};
     const glm::dvec3 lowest = grid.index_min(), highest = grid.index_max();
+    const double reach = grid.lookup == VolumeLookup::nearest ? 0 : 1;
     std::vector<double> ends;
     for (int axis = 0; axis < 3; ++axis) {
         cut(seen, {lowest, glm::dmat3(1)[axis]}, true, ray);
@@ -139,7 +142,7 @@ std::vector<Segment> meet(const Volume& volume, const View::Ray& world, Span see
         const glm::dvec3 a = inside(from), b = inside(to);
         Cubic<Field> p[8]{};
         for (int i = 0; i < 8; ++i)
-            p[i].c[0] = field_at(volume, cell + glm::dvec3(i & 1, i >> 1 & 1, i >> 2));
+            p[i].c[0] = field_at(volume, cell + reach * glm::dvec3(i & 1, i >> 1 & 1, i >> 2));
         for (int i = 0; i < 4; ++i) p[i] = mixed(p[2 * i], p[2 * i + 1], a.x, b.x);
         for (int i = 0; i < 2; ++i) p[i] = mixed(p[2 * i], p[2 * i + 1], a.y, b.y);
         const Cubic<Field> field = mixed(p[0], p[1], a.z, b.z);

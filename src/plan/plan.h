@@ -164,6 +164,7 @@ struct SlicedPicture : CompositingPlan, LightPlan {
     bool single_color = false;    // all that is visible has one colour, a constant of the program
     bool precise_rays = true;     // rays and chords are computed in double precision
     bool nan_transparent = false;  // samples may be NaN, which is transparent
+    bool nearest = false;          // VolumeLookup::nearest: cells are voxels
     // Draw calls for a frame. Each is waited for, so that progress is shown and Ctrl-C works.
     int batches = 1;
     // True: colour and extinction are linear in the scalar, so that segments have a closed form.

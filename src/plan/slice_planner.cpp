@@ -73,6 +73,7 @@ struct SlicePlanner {
         slice.order = scene.slice.order;
         slice.batches = capabilities.software ? software_batches : 1;
         slice.nan_transparent = facts.non_finite > 0;
+        slice.nearest = facts.grid.lookup == VolumeLookup::nearest;
         slice.table_filtered =
             scene.slice.filter == Filter::hardware || capabilities.exact_float_filter;
         slice.segment_error = exact_segment_error * std::max(max_color, 1.0);
@@ -238,8 +239,10 @@ struct SlicePlanner {
         if (sampling == VolumeSampling::none) return {TextureBrick{{0, 0, 0}, facts.grid.size}};
         const std::uint64_t sample_bytes = float_texture ? 4 : bytes_of(facts.type);
         const bool gradients = scene.lighting && !capabilities.cpu;
-        return cut_into_bricks(facts.grid, facts.non_finite > 0,
-                               gradients ? gradient_bytes : sample_bytes, capabilities);
+        // Voxels that are constant have no border samples beside them.
+        const bool bordered = facts.non_finite > 0 && facts.grid.lookup == VolumeLookup::linear;
+        return cut_into_bricks(facts.grid, bordered, gradients ? gradient_bytes : sample_bytes,
+                               capabilities);
     }
 
     TreeQuestion tree_question(int slabs, std::size_t bricks, double slab_error) const {

@@ -75,6 +75,7 @@ struct CellCorners {
 };
 
 // Reads cells' corners from memory (a pointer) or disk (SamplesInFiles); the border sample repeats.
+// If lookup is nearest, a cell is a voxel, and all its corners have its sample's value.
 template <typename Samples>
 class CellSamples {
   public:
@@ -82,14 +83,16 @@ class CellSamples {
         : samples_(samples),
           last_{grid.size[0] - 1, grid.size[1] - 1, grid.size[2] - 1},
           row_(grid.size[0]),
-          slice_(grid.size[0] * grid.size[1]) {}
+          slice_(grid.size[0] * grid.size[1]),
+          reach_(grid.lookup == VolumeLookup::nearest ? 0 : 1) {}
 
     CellCorners corners(const CellIndex& cell) const {
         if constexpr (!std::is_pointer_v<Samples>) return stored_corners(cell);
-        const std::int64_t x0 = clamped(cell[0], 0), x1 = clamped(cell[0] + 1, 0);
-        const std::int64_t y0 = clamped(cell[1], 1) * row_, y1 = clamped(cell[1] + 1, 1) * row_;
+        const std::int64_t x0 = clamped(cell[0], 0), x1 = clamped(cell[0] + reach_, 0);
+        const std::int64_t y0 = clamped(cell[1], 1) * row_;
+        const std::int64_t y1 = clamped(cell[1] + reach_, 1) * row_;
         const std::int64_t z0 = clamped(cell[2], 2) * slice_;
-        const std::int64_t z1 = clamped(cell[2] + 1, 2) * slice_;
+        const std::int64_t z1 = clamped(cell[2] + reach_, 2) * slice_;
         return {at(x0 + y0 + z0), at(x1 + y0 + z0), at(x0 + y1 + z0), at(x1 + y1 + z0),
                 at(x0 + y0 + z1), at(x1 + y0 + z1), at(x0 + y1 + z1), at(x1 + y1 + z1)};
     }
@@ -98,7 +101,7 @@ class CellSamples {
         for (std::size_t i = 0; i < cells.count; ++i) {
             const CellIndex cell{cells.cell[0][i], cells.cell[1][i], cells.cell[2][i]};
             if constexpr (std::is_pointer_v<Samples>) {
-                if (inside(cell)) {
+                if (reach_ == 1 && inside(cell)) {
                     fetch_inside(cell, cells, i);
                     continue;
                 }
@@ -114,7 +117,7 @@ class CellSamples {
         std::array<std::int64_t, 3> lower{}, upper{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             lower[axis] = clamped(cell[axis], axis);
-            upper[axis] = clamped(cell[axis] + 1, axis);
+            upper[axis] = clamped(cell[axis] + reach_, axis);
         }
         const auto samples = samples_.corners(lower, upper);
         CellCorners found;
@@ -141,14 +144,16 @@ class CellSamples {
     Samples samples_;
     std::array<std::int64_t, 3> last_;
     std::int64_t row_, slice_;
+    std::int64_t reach_;  // from a cell's lower to its upper corner, in samples
 };
 
-// The trilinear gradient (docs/numerics.md, section 10), in scalar units per world unit.
+// The trilinear gradient (docs/numerics.md, section 10), in scalar units per world unit. If lookup
+// is nearest, the field is constant in each voxel, and its gradient 0.
 template <typename Samples>
 class GradientSamples {
   public:
     GradientSamples(const Grid& grid, const Samples& samples)
-        : samples_(samples), size_(grid.size) {
+        : samples_(samples), size_(grid.size), constant_(grid.lookup == VolumeLookup::nearest) {
         stride_ = {1, size_[0], size_[0] * size_[1]};
         for (std::size_t axis = 0; axis < 3; ++axis)
             axes_[axis] = grid.step[axis] / glm::dot(grid.step[axis], grid.step[axis]);
@@ -157,7 +162,10 @@ class GradientSamples {
     // Returns the gradient along from + t * step, 0 <= t <= 1, in the cell's coordinates (0..1).
     GradientAlong along(const CellIndex& cell, const glm::dvec3& from,
                         const glm::dvec3& step) const {
-        std::array<CellCorners, 3> corners;
+        std::array<CellCorners, 3> corners{};
+        if (constant_)
+            return {corners[0].along(from, step), corners[1].along(from, step),
+                    corners[2].along(from, step)};
         for (std::size_t corner = 0; corner < 8; ++corner) {
             const glm::dvec3 gradient = at({cell[0] + static_cast<std::int64_t>(corner & 1),
                                             cell[1] + static_cast<std::int64_t>(corner >> 1 & 1),
@@ -197,6 +205,7 @@ class GradientSamples {
     Samples samples_;
     std::array<std::int64_t, 3> size_, stride_;
     std::array<glm::dvec3, 3> axes_;
+    bool constant_;
 };
 
 // Two sets of bits for a volume in memory: which cells may be visible, and which blocks of edge^3

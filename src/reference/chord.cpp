@@ -209,7 +209,7 @@ GridAxes::Axis scaled_axis(const glm::dvec3& step) {
 }  // namespace
 
 GridAxes::GridAxes(const Grid& grid)
-    : origin(grid.origin),
+    : origin(grid.index_origin()),
       lowest(grid.index_min()),
       highest(grid.index_max()),
       axes{scaled_axis(grid.step[0]), scaled_axis(grid.step[1]), scaled_axis(grid.step[2])} {}

@@ -34,6 +34,35 @@ ContextChoice context_for_files(const Auto<ContextChoice>& choice) {
     return ContextChoice::cpu;
 }
 
+// Returns the lookup of the volume that the scene draws; linear if it draws a mesh.
+VolumeLookup lookup_of(const Scene& scene, SceneData& data) {
+    if (scene.draws_mesh()) return VolumeLookup::linear;
+    if (const VolumeFile* const file = scene.volume_file())
+        return file->selection.lookup.value_or(VolumeLookup::linear);
+    if (const auto* const generated = std::get_if<GeneratorRequest>(&scene.volume))
+        return generated->lookup;
+    return data.volume(scene)->volume.grid().lookup;
+}
+
+// Settles what a field that is constant in each voxel leaves no choice of: it is integrated
+// exactly, and it has no gradient that could be lit. Throws Error if the scene asks for other
+// segments.
+void settle_for_voxels(Scene& scene) {
+    const Auto<Classification>& asked = scene.slice.classification;
+    if (asked.is_given() && asked != Classification::exact) {
+        fail(
+            "{}: render.slice.classification: found \"{}\", expected \"exact\" with \"lookup\": "
+            "\"nearest\": the field steps at the faces of voxels, which slabs would miss",
+            scene.file.string(), name_of(*asked));
+    }
+    scene.slice.classification = Classification::exact;
+    if (!scene.lighting) return;
+    warn(
+        "lighting: nothing is lit, because with \"lookup\": \"nearest\" the field is constant in "
+        "each voxel and has no gradient");
+    scene.lighting.reset();
+}
+
 }  // namespace
 
 Scene as_trace(Scene scene, TraceOf of) {
@@ -99,6 +128,7 @@ Choices Pipeline::chosen() {
         const Adjustments& adjustments = options_.adjustments;
         if (const auto ramp = opaque_ramp(asked_)) warn(*ramp);
         Scene scene = asked_;
+        if (lookup_of(scene, data_) == VolumeLookup::nearest) settle_for_voxels(scene);
         if (has_open_colormap(scene)) close_colormap(scene, data_.range(scene));
         if (!leaves_something_open(scene) && !adjustments.transfer_function() &&
             !adjustments.camera())

@@ -52,6 +52,14 @@ Alternative<Scene> object_alternative(Source Scene::*source,
         table().schema()};
 }
 
+Form<VolumeLookup> lookup_form() {
+    return words_form<VolumeLookup>(
+        {{"linear", VolumeLookup::linear}, {"nearest", VolumeLookup::nearest}});
+}
+
+constexpr const char* lookup_text =
+    "Between samples: linear is trilinear; nearest is constant in each sample's voxel, for labels.";
+
 void generator_keys(KeyTable<GeneratorRequest>& keys) {
     // The types that generated_grid() can make.
     std::vector<std::pair<const char*, SampleType>> types;
@@ -65,6 +73,7 @@ void generator_keys(KeyTable<GeneratorRequest>& keys) {
              optional_form(sizes_form(
                  largest_generated_axis,
                  fmt::format("three whole numbers from 1 to {}", largest_generated_axis))));
+    keys.key("lookup", &GeneratorRequest::lookup, lookup_form(), lookup_text);
     keys.check([](JsonReader& reader, GeneratorRequest& request) {
         try {
             generated_grid(request);
@@ -136,6 +145,9 @@ void mesh_file_keys(KeyTable<MeshFile>& keys) {
     keys.key("path", &MeshFile::path, path_form()).required();
     keys.key("time", &MeshFile::time, whole_form<std::int64_t>(0, most_steps),
              "Step of a .pvd, counted from 0 in the order of time.");
+    keys.key("join", &MeshFile::join,
+             number_form({.from = 0, .up_to = 1e100}, "a distance from 0 to 1e100 (world units)"),
+             "Points this near to an earlier one are moved to its place (world units).");
 }
 
 void mesh_keys(KeyTable<MeshSettings>& keys) {
@@ -187,6 +199,8 @@ void volume_selection_keys(KeyTable<VolumeRequest>& keys) {
     keys.key("spacing", &VolumeRequest::spacing, optional_form(spacing), "In place of the file's.");
     keys.key("origin", &VolumeRequest::origin, optional_form(vector_form()),
              "The first sample, in place of the file's.");
+    keys.key("lookup", &VolumeRequest::lookup, optional_form(lookup_form()), lookup_text)
+        .otherwise("linear");
     add_raw_keys(keys);
 }
 

@@ -139,8 +139,9 @@ class CellIntegrator {
         });
     }
 
-    LAMINA_INLINE void set_cubic(const CpuBrick& brick, const Corners& corners, std::size_t i) {
+    LAMINA_INLINE void set_cubic(const CpuBrick& brick, Corners corners, std::size_t i) {
         const auto [place, change] = segments_.paths_from(i);
+        if (brick.nearest) take_sample(place, corners);
         // The cubic is computed from codes minus `base` and then scaled; scale is a power of two
         // (exact_range()), so that is exact. Floats are normalised already: scale 1, offset 0.
         const Float base(-brick.offset / brick.scale);
@@ -149,6 +150,17 @@ class CellIntegrator {
         if (slabs_.plan->nan_transparent) set_transparent(corners, cubic, i);
         for (std::size_t power = 0; power < 4; ++power)
             store(cubic.c[power], segments_.cubic[power] + i);
+    }
+
+    // Gives all corners of a voxel the value of its sample, the corner at `place` (0 or 1).
+    static LAMINA_INLINE void take_sample(const Float (&place)[3], Corners& corners) {
+        const FloatMask upper_x = place[0] > 0.5f, upper_y = place[1] > 0.5f;
+        const FloatMask upper_z = place[2] > 0.5f;
+        Float value[4];
+        for (int i = 0; i < 4; ++i) value[i] = select(upper_x, corners.upper[i], corners.lower[i]);
+        const Float sample = select(upper_z, select(upper_y, value[3], value[2]),
+                                    select(upper_y, value[1], value[0]));
+        for (int i = 0; i < 4; ++i) corners.lower[i] = corners.upper[i] = sample;
     }
 
     // Removes segments of cells with a NaN at a corner: their length and scalar become 0.

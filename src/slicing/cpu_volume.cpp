@@ -94,6 +94,7 @@ CpuVolume::CpuVolume(const Volume& volume, const ValueRange& range, const SliceP
             brick.last_sample[axis] = static_cast<float>(part.size[axis] - 1);
         brick.row = part.size[1] > 1 ? static_cast<std::int32_t>(part.size[0]) : 0;
         brick.slice = part.size[2] > 1 ? static_cast<std::int32_t>(part.size[0] * part.size[1]) : 0;
+        brick.nearest = plan.nearest;
         normalise(range, brick);
         if (!volume.in_memory()) {
             bricks_.push_back(brick);

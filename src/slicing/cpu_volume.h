@@ -67,6 +67,7 @@ struct CpuBrick {
     std::int32_t last_word = 0;  // for bytes and words: offset of the last whole 32 bits, in bytes
     std::uint32_t flip = 0;      // bits to invert, which turn int16 into uint16 from 0 on
     std::array<float, 3> last_sample{};  // size minus one
+    bool nearest = false;                // VolumeLookup::nearest: cells are voxels
     // The normalised scalar is interpolated code * scale + offset. Texture units interpolate code *
     // unit instead; from that value it is value * unit_scale + offset.
     float scale = 1, offset = 0, unit = 1, unit_scale = 1;

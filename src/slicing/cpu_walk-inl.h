@@ -251,9 +251,12 @@ class CellWalk {
             const Int sample = samples[axis] = clamp(cell, 0, std::max(last_[axis] - 1, 0));
             const FloatMask between = (cell > -1) & (cell < last_[axis]);
             const Float largest(last_[axis] > 0 ? 1.0f : 0.0f);
-            const Float share = place_in_cell(axis, sample - cell_[axis]);
+            // A voxel's sample is one of the corners: the place, 0 or 1, says which.
+            const bool voxels = view_->brick.nearest;
+            const Float share =
+                voxels ? to_float(cell - sample) : place_in_cell(axis, sample - cell_[axis]);
             store_members(clamp(share, 0, largest), shown, segments.place[axis] + at);
-            const FloatMask moves = without(between, leaps.lanes);
+            const FloatMask moves = without(between & FloatMask(!voxels), leaps.lanes);
             store_members(zero_unless(moves, thickness * slope_[axis]), shown,
                           segments.change[axis] + at);
             if constexpr (lit) store_members(to_eye_[axis], shown, segments.to_eye[axis] + at);

@@ -190,6 +190,7 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
     if (plan.single_color) defines.set("SINGLE_COLOR", 1);
     if (plan.sampling == VolumeSampling::none) return defines;
     if (plan.nan_transparent) defines.set("NAN_TRANSPARENT", 1);
+    if (plan.nearest) defines.set("NEAREST_LOOKUP", 1);
     if (plan.lighting) set_light_defines(*plan.lighting, defines);
     defines.set("INTERVALS", intervals);
     if (plan.integrates_cells()) {

@@ -78,7 +78,8 @@ class RectangleCounts {
     std::vector<std::int32_t> counts_;
 };
 
-// Returns a min/max brick's box, half a voxel larger: `cell` axes draw as much beyond samples.
+// Returns a min/max brick's box, a voxel larger: `cell` axes draw half as much beyond samples, or
+// as much if lookup is nearest.
 IndexBox box_of(const MinMaxBricks& bricks, std::size_t number, const Grid& grid) {
     auto rest = static_cast<std::int64_t>(number);
     glm::dvec3 lower;
@@ -87,8 +88,9 @@ IndexBox box_of(const MinMaxBricks& bricks, std::size_t number, const Grid& grid
         lower[axis] = static_cast<double>(rest % count * MinMaxBricks::edge);
         rest /= count;
     }
-    return {glm::max(lower - 0.5, grid.index_min()),
-            glm::min(lower + (MinMaxBricks::edge + 0.5), grid.index_max())};
+    const double beyond = grid.lookup == VolumeLookup::nearest ? 1 : 0.5;
+    return {glm::max(lower - beyond, grid.index_min()),
+            glm::min(lower + (MinMaxBricks::edge + beyond), grid.index_max())};
 }
 
 // A rectangle in pixels; empty at first.

@@ -187,6 +187,7 @@ std::string content_of(const Volume& volume) {
     const Grid& grid = volume.grid();
     hash.add(name_of(volume.type()));
     add(hash, grid.origin);
+    if (grid.lookup == VolumeLookup::nearest) hash.add("nearest");
     for (std::size_t axis = 0; axis < 3; ++axis) {
         add(hash, grid.step[axis]);
         hash.add(static_cast<double>(grid.size[axis]));

@@ -556,6 +556,7 @@ Grid generated_grid(const GeneratorRequest& request) {
                  fmt::join(grid.size, ","), largest_generated_axis);
         }
     }
+    grid.lookup = request.lookup;
     grid.centering.fill(Centering::cell);
     if (request.name == "ramp") return grid;  // voxels of edge 1
     for (int axis = 0; axis < 3; ++axis) {

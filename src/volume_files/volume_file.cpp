@@ -158,10 +158,12 @@ void expect_known_keys(const Path& path, const VolumeFormat& format, const Volum
     expect(has_times, request.time.has_value(), "time");
 }
 
-// Replaces spacing and origin of the file by those of the request, if it has any.
+// Replaces spacing and origin of the file by those of the request, if it has any, and takes its
+// lookup.
 Volume placed(const Path& path, const Volume& volume, const VolumeRequest& request) {
-    if (!request.spacing && !request.origin) return volume;
     Grid grid = volume.grid();
+    grid.lookup = request.lookup;
+    if (!request.spacing && !request.origin) return volume.on(grid);
     for (int axis = 0; axis < 3 && request.spacing; ++axis) {
         glm::dvec3& step = grid.step[static_cast<std::size_t>(axis)];
         step = glm::normalize(step) * (*request.spacing)[axis];

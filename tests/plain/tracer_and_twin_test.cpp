@@ -84,6 +84,27 @@ TEST(TracerAndTwin, AgreeOnSamplesOfAllTypesAndBothCenterings) {
     }
 }
 
+// The field is constant in each voxel, so that light changes nothing.
+TEST(TracerAndTwin, AgreeOnVoxelsOfLabels) {
+    for (const Centering centering : {Centering::node, Centering::cell}) {
+        const Volume smooth = noise_of<std::uint8_t>(centering, 0, 255);
+        Grid grid = smooth.grid();
+        grid.lookup = VolumeLookup::nearest;
+        const Volume voxels = smooth.on(grid);
+        const auto function = TransferFunction::linear(
+            {{0, {{1, .2, .1}, 0}}, {120, {{.1, .8, 1}, 6}}, {255, {{1, 1, 0}, 1}}});
+        for (const Camera& camera : views_of(unit_box)) {
+            Scene scene = scene_of(function, camera);
+            expect_same(scene, voxels, name_of(camera.projection));
+            const auto unlit = trace(scene, voxels);
+            EXPECT_GT(largest_difference(unlit.image, trace(scene, smooth).image), .01);
+            scene.lighting = directional();
+            expect_same(scene, voxels, "lit");
+            EXPECT_EQ(largest_difference(trace(scene, voxels).image, unlit.image), 0);
+        }
+    }
+}
+
 TEST(TracerAndTwin, AgreeOnTurnedGridsAndThinOnes) {
     Grid turned = make_grid({4, 3, 6}, Centering::cell);
     turned.step = {glm::dvec3(2, 1, 2) / 9., glm::dvec3(-4, 4, 2) / 15.,

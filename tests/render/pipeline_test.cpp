@@ -45,6 +45,22 @@ TEST(Pipeline, StretchesAColormapOverTheChannelThatIsDrawn) {
     }
 }
 
+TEST(Pipeline, IntegratesVoxelsExactlyAndUnlit) {
+    nlohmann::json document = minimal_scene();
+    document["volume"]["lookup"] = "nearest";
+    document["lighting"] = nlohmann::json::object();
+    test::HeardWarnings heard;
+    Pipeline pipeline(read_scene(document, "s"));
+    EXPECT_EQ(pipeline.scene().slice.classification, Classification::exact);
+    EXPECT_FALSE(pipeline.scene().lighting);
+    ASSERT_EQ(heard.texts.size(), 1u);
+    EXPECT_NE(heard.texts[0].find("nothing is lit"), std::string::npos) << heard.texts[0];
+    document["render"]["slice"]["classification"] = "preintegrated";
+    Pipeline slabs(read_scene(document, "s"));
+    expect_error([&] { slabs.scene(); },
+                 {"s: render.slice.classification: found \"preintegrated\"", "\"nearest\""});
+}
+
 TEST(Pipeline, StretchesAnotherColormapOverTheDataItHas) {
     Pipeline pipeline(read_scene(minimal_scene(), "s"));
     pipeline.set_transfer_function_of(read_scene(with_open_map(), "s"));

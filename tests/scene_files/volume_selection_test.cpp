@@ -12,7 +12,7 @@ using Json = nlohmann::json;
 const Json everything = {{"path", "/a.bin"},     {"array", "pressure"}, {"level", 1},
                          {"channel", 2},         {"time", 3},           {"spacing", {1, 2, .5}},
                          {"origin", {-1, 0, 7}}, {"size", {4, 3, 2}},   {"type", "double"},
-                         {"offset", 16},         {"endian", "big"}};
+                         {"offset", 16},         {"endian", "big"},     {"lookup", "nearest"}};
 
 TEST(VolumeSelection, IsReadAndWrittenBack) {
     const Scene scene = read_scene(with("/volume", everything), "s.json");
@@ -23,6 +23,7 @@ TEST(VolumeSelection, IsReadAndWrittenBack) {
     EXPECT_EQ(request.level, 1);
     EXPECT_EQ(request.channel, 2);
     EXPECT_EQ(request.time, 3);
+    EXPECT_EQ(request.lookup, VolumeLookup::nearest);
     EXPECT_EQ(request.spacing, glm::dvec3(1, 2, .5));
     EXPECT_EQ(request.origin, glm::dvec3(-1, 0, 7));
     ASSERT_TRUE(request.raw);

@@ -154,7 +154,21 @@ def volume_scene(seed, dice, lit):
         made.labels["data"] += " as a mesh"
     made.scene["render"] = projecting(dice) if "mesh" in made.scene else slicing(dice)
     made.arguments += omissions(dice)
+    voxels = Dice(seed + (1 << 36))  # of their own, so that other scenes stay as they were
+    if voxels.chance(0.15) and "mesh" not in made.scene and "lighting" not in made.scene:
+        take_nearest(made)
     return made
+
+
+def take_nearest(made):
+    """Makes the field constant in each voxel, which exact segments alone draw."""
+    made.volume.nearest = True
+    made.scene["volume"] = {"path": "volume.nrrd", "lookup": "nearest"}
+    made.labels["data"] += ", voxels"
+    settings = made.scene["render"]["slice"]
+    settings.pop("filter", None)
+    if settings["classification"] != "auto":
+        settings["classification"] = "exact"
 
 
 def around_mesh(seed, dice, mesh, shown, lit):

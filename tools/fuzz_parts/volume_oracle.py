@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A volume along rays, written from docs/scene.md alone: the trilinear field, cell by cell, as pieces for emission.py;
-and slabs as post-classified slicing takes them."""
+"""A volume along rays, written from docs/scene.md alone: the trilinear field, cell by cell, or the constant field of each
+voxel, as pieces for emission.py; and slabs as post-classified slicing takes them."""
 import numpy
 
 from . import clips
@@ -23,6 +23,13 @@ def trilinear(samples, cell, local):
         value = numpy.where(numpy.isfinite(value), value, 0)
         found, least, most = found + weight * value, numpy.minimum(least, value), numpy.maximum(most, value)
     return numpy.clip(found, least, most), finite  # exactly constant in a constant cell
+
+
+def voxel_values(samples, voxel):
+    """The samples of voxels; outside, the border value repeats. [n], [n]: finite."""
+    x, y, z = numpy.clip(voxel, 0, numpy.array(samples.shape) - 1).T
+    value = samples[x, y, z].astype(float)
+    return numpy.where(numpy.isfinite(value), value, 0), numpy.isfinite(value)
 
 
 class IndexRays:
@@ -55,9 +62,10 @@ class IndexRays:
 
 
 def pieces(volume, origins, directions, clip=None):
-    """Cells along each ray, as cubics."""
+    """Cells or voxels along each ray, as cubics."""
     rays = IndexRays(volume, origins, directions, clip)
     low, high = volume.corners()
+    first = 0.5 if volume.nearest else 0  # faces of voxels lie between samples
     numbers, starts, ends, cells = [], [], [], []
     for i in range(len(rays.near)):
         if not rays.near[i] < rays.far[i]:
@@ -65,14 +73,14 @@ def pieces(volume, origins, directions, clip=None):
         cuts = [numpy.array([rays.near[i], rays.far[i]])]
         for axis in range(3):
             if rays.slope[i, axis] != 0:
-                planes = numpy.arange(numpy.ceil(low[axis]), numpy.floor(high[axis]) + 1)
+                planes = numpy.arange(numpy.ceil(low[axis] - first), numpy.floor(high[axis] - first) + 1) + first
                 cuts.append((planes - rays.origin[i, axis]) / rays.slope[i, axis])
         cuts = numpy.unique(numpy.clip(numpy.concatenate(cuts), rays.near[i], rays.far[i]))
         middles = rays.origin[i] + ((cuts[:-1] + cuts[1:]) / 2)[:, None] * rays.slope[i]
         numbers.append(numpy.full(len(cuts) - 1, i))
         starts.append(cuts[:-1])
         ends.append(cuts[1:])
-        cells.append(numpy.floor(middles).astype(int))
+        cells.append(numpy.floor(middles + first).astype(int))
     if not numbers:
         return Pieces(numpy.zeros(0, int), numpy.zeros(0), numpy.zeros(0), numpy.zeros((0, 4)))
     ray, start, end, cell = map(numpy.concatenate, (numbers, starts, ends, cells))
@@ -80,7 +88,10 @@ def pieces(volume, origins, directions, clip=None):
     values = []
     for share in (0, 1 / 3, 2 / 3, 1):
         place = rays.origin[ray] + (start + share * (end - start))[:, None] * rays.slope[ray]
-        value, finite = trilinear(volume.samples, cell, numpy.clip(place - cell, 0, 1))
+        if volume.nearest:
+            value, finite = voxel_values(volume.samples, cell)
+        else:
+            value, finite = trilinear(volume.samples, cell, numpy.clip(place - cell, 0, 1))
         values.append(value)
     a, b, c, d = values
     scalars = numpy.stack([a, (-5 * a + 18 * b - 9 * c + 2 * d) / 6, (2 * a - 9 * b + 18 * c - 5 * d) / 6, d], 1)

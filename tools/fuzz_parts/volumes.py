@@ -17,6 +17,7 @@ class Volume:
     origin: numpy.ndarray
     steps: numpy.ndarray
     kind: str
+    nearest: bool = False  # each sample's value holds in its voxel
 
     def corners(self):
         """Lowest and highest index of the box."""

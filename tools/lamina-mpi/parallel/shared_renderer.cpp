@@ -45,11 +45,11 @@ void add(const IndexBox& box, std::string& text) {
 std::string digest_of(const SlicePlan& plan, const std::vector<IndexBox>& shares) {
     const TableRequest& table = plan.table.request;
     std::string text = fmt::format(
-        "{} {} {} {} {} {} {} {:a} {} {} {:a} {:a} {:a} {:a} {} {}", plan.slabs,
+        "{} {} {} {} {} {} {} {} {:a} {} {} {:a} {:a} {:a} {:a} {} {}", plan.slabs,
         static_cast<int>(plan.classification), static_cast<int>(plan.sampling), plan.single_color,
-        plan.nan_transparent, plan.linear, plan.nothing_visible, plan.unit, table.scalar_nodes,
-        table.length_layers, table.max_length, plan.opaque_depth, plan.curve_error, plan.most_bend,
-        plan.bricks.size(), plan.clip.size());
+        plan.nan_transparent, plan.nearest, plan.linear, plan.nothing_visible, plan.unit,
+        table.scalar_nodes, table.length_layers, table.max_length, plan.opaque_depth,
+        plan.curve_error, plan.most_bend, plan.bricks.size(), plan.clip.size());
     add(plan.drawn, text);
     for (const IndexBox& share : shares) add(share, text);
     ContentHash hash;
