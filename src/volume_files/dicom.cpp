@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <map>
 
@@ -12,6 +14,8 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "volume_files/dicom_image.h"
+#include "volume_files/dicom_phases.h"
+#include "volume_files/dicom_places.h"
 #include "volume_files/isolated_process.h"
 
 namespace lamina {
@@ -19,60 +23,97 @@ namespace {
 
 using Path = std::filesystem::path;
 using Images = std::vector<DicomImage>;
+using Slices = std::vector<DicomSlice>;
 
-// The images of one volume, from the first slice to the last, and its grid.
+// The slices of one volume, from the first to the last, and its grid.
 struct DicomSeries {
     std::string name;  // for messages
-    std::vector<DicomImage> slices;
+    Images images;
+    Slices slices;  // of `images`
     Grid grid;
 };
 
-// Largest deviation of the distance between two slices from the usual distance, as a share of it; a
-// slice may lie twice as far off the series' line. Scanners round positions to a few digits.
-constexpr double place_tolerance = 1e-2;
+// Returns the names of up to three slices.
+std::string some_names(const Slices& slices) {
+    std::string names;
+    for (std::size_t i = 0; i < std::min<std::size_t>(slices.size(), 3); ++i)
+        names += (i == 0 ? "" : ", ") + slices[i].name();
+    return names + (slices.size() > 3 ? ", ..." : "");
+}
 
-// Returns the DICOM images of a file or folder by their SeriesInstanceUID. Warns of other files.
+// Returns the DICOM images of a file or folder by their SeriesInstanceUID. Says which files are
+// not used.
 std::map<std::string, Images> images_by_series(const Path& path) {
     const std::vector<Path> files = files_of_dicom(path);
     std::map<std::string, Images> series;
+    Images refused;
     std::size_t others = 0;
     for (const Path& file : files) {
         check_interrupt();
-        if (auto image = read_dicom_image(file)) {
+        auto image = read_dicom_image(file);
+        if (!image) {
+            ++others;
+        } else if (image->refusal.empty()) {
             series[image->series].push_back(std::move(*image));
         } else {
-            ++others;
+            refused.push_back(std::move(*image));
         }
     }
-    if (series.empty()) fail("{}: found no DICOM images in it", path.string());
+    if (series.empty() && !refused.empty())
+        fail("{}: {}", refused[0].file.string(), refused[0].refusal);
+    if (series.empty()) {
+        fail("{}: found no DICOM images in it", path.string());
+    }
     if (others > 0) {
         warn(fmt::format("{}: {} of {} files are no DICOM images, and not used", path.string(),
                          others, files.size()));
     }
+    if (!refused.empty()) {
+        warn(fmt::format("{}: {} of {} files are set aside: {}: {}", path.string(), refused.size(),
+                         files.size(), refused[0].file.filename().string(), refused[0].refusal));
+    }
     return series;
+}
+
+std::size_t slices_in(const Images& images) {
+    std::size_t count = 0;
+    for (const DicomImage& image : images) count += image.frames.size();
+    return count;
 }
 
 std::string described(const Images& images) {
     return fmt::format("\"{}\" ({} images)",
                        images[0].description.empty() ? images[0].series : images[0].description,
-                       images.size());
+                       slices_in(images));
 }
 
 // Returns the images of the series that request.array names, else those of the largest series.
-Images chosen_series(const Path& path, const VolumeRequest& request) {
+Images chosen_series(const Path& path, const VolumeRequest& request, VolumeContents* contents) {
     std::map<std::string, Images> all = images_by_series(path);
     std::vector<std::string> list;
-    for (const auto& [uid, images] : all) list.push_back(described(images));
+    for (const auto& [uid, images] : all) {
+        list.push_back(described(images));
+        if (contents != nullptr)
+            contents->arrays.push_back(images[0].description.empty() ? uid : images[0].description);
+    }
     if (!request.array.empty()) {
+        Images* found = nullptr;
         for (auto& [uid, images] : all) {
-            if (uid == request.array || images[0].description == request.array)
-                return std::move(images);
+            if (uid == request.array) return std::move(images);
+            if (images[0].description != request.array) continue;
+            if (found != nullptr) {
+                fail(
+                    "{}: array: found \"{}\", the name of several series, expected a UID: {} or {}",
+                    path.string(), request.array, found->front().series, uid);
+            }
+            found = &images;
         }
+        if (found != nullptr) return std::move(*found);
         fail("{}: array: found \"{}\", expected one of the series {}", path.string(), request.array,
              fmt::join(list, ", "));
     }
-    const auto largest =
-        std::ranges::max_element(all, {}, [](const auto& entry) { return entry.second.size(); });
+    const auto largest = std::ranges::max_element(
+        all, {}, [](const auto& entry) { return slices_in(entry.second); });
     if (all.size() > 1) {
         warn(
             fmt::format("{}: of the series {} the largest, {}, is drawn: \"array\" in the volume "
@@ -82,212 +123,339 @@ Images chosen_series(const Path& path, const VolumeRequest& request) {
     return std::move(largest->second);
 }
 
-// Throws Error unless all images have one size, orientation and pixel spacing. Several images must
-// also have positions, and one frame each.
-void expect_alike(const Images& images) {
-    const DicomImage& first = images.front();
+// Removes images with the SOPInstanceUID and place of an earlier one: copies of its file.
+void remove_copies(Images& images, const std::string& name) {
+    std::map<std::string, std::optional<glm::dvec3>> places;
+    const std::size_t count = images.size();
+    std::erase_if(images, [&](const DicomImage& image) {
+        const auto& place = image.frames[0].position;
+        const auto [earlier, is_new] = places.emplace(image.instance_uid, place);
+        return !is_new && !image.instance_uid.empty() && earlier->second == place;
+    });
+    if (images.size() < count) {
+        warn(
+            fmt::format("{}: {} of {} files are copies of others, with the same SOPInstanceUID, "
+                        "and not used",
+                        name, count - images.size(), count));
+    }
+}
+
+bool differ(const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::length(a - b) > 1e-3;
+}
+
+bool differ_in_orientation(const DicomSlice& a, const DicomSlice& b) {
+    return differ(a.frame->along_row, b.frame->along_row) ||
+           differ(a.frame->along_column, b.frame->along_column);
+}
+
+// Returns the slices of most images, without localizers and, if at least three slices remain, so
+// that their distances can be checked, without those that few others have the orientation of.
+Slices without_localizers(const Images& images, const std::string& name) {
+    constexpr std::size_t most_orientations = 64, least_slices = 3;
+    std::vector<Slices> groups;  // by orientation
+    Slices localizers;
     for (const DicomImage& image : images) {
-        const std::string name = image.file.string();
-        if (image.columns != first.columns || image.rows != first.rows) {
-            fail("{}: found {} x {} pixels, expected {} x {}, as {} has", name, image.columns,
-                 image.rows, first.columns, first.rows, first.file.filename().string());
+        for (const DicomFrame& frame : image.frames) {
+            const DicomSlice slice{&image, &frame};
+            if (image.is_localizer) {
+                localizers.push_back(slice);
+                continue;
+            }
+            auto group = std::ranges::find_if(groups, [&](const Slices& other) {
+                return !differ_in_orientation(slice, other[0]);
+            });
+            if (group == groups.end()) group = groups.insert(groups.end(), Slices{});
+            group->push_back(slice);
+            if (groups.size() > most_orientations)
+                fail("{}: ImageOrientationPatient: found more than {} orientations, expected one",
+                     name, most_orientations);
         }
-        const auto differ = [](const glm::dvec3& a, const glm::dvec3& b) {
-            return glm::length(a - b) > 1e-3;
-        };
-        if (differ(image.along_row, first.along_row) ||
-            differ(image.along_column, first.along_column)) {
-            fail("{}: ImageOrientationPatient: found another than in {}, expected the same", name,
-                 first.file.filename().string());
+    }
+    if (groups.empty()) groups.push_back(std::exchange(localizers, {}));
+    std::ranges::stable_sort(groups, std::greater{}, &Slices::size);
+    Slices kept = std::move(groups[0]);
+    for (auto group = groups.begin() + 1; group != groups.end(); ++group) {
+        if (kept.size() < least_slices || group->size() == kept.size()) {
+            fail("{}: ImageOrientationPatient: found another than in {}, expected the same",
+                 (*group)[0].image->file.string(), kept[0].name());
         }
-        if (differ(image.spacing / first.spacing,
-                   glm::dvec3(1, 1, image.spacing.z / first.spacing.z)))
+        localizers.insert(localizers.end(), group->begin(), group->end());
+    }
+    if (!localizers.empty()) {
+        warn(fmt::format(
+            "{}: set aside {} of {} slices, localizers or of another "
+            "ImageOrientationPatient: {}",
+            name, localizers.size(), localizers.size() + kept.size(), some_names(localizers)));
+    }
+    return kept;
+}
+
+// Throws Error unless all slices have one size and pixel spacing and, if several, positions.
+void expect_alike(const Slices& slices) {
+    const auto& [first, first_frame] = slices.front();
+    for (const auto& [image, frame] : slices) {
+        const std::string name = image->file.string();
+        if (image->slice_columns != first->slice_columns ||
+            image->slice_rows != first->slice_rows) {
+            fail("{}: found {} x {} pixels, expected {} x {}, as {} has", name,
+                 image->slice_columns, image->slice_rows, first->slice_columns, first->slice_rows,
+                 first->file.filename().string());
+        }
+        if (std::abs(frame->column_spacing / first_frame->column_spacing - 1) > 1e-3 ||
+            std::abs(frame->row_spacing / first_frame->row_spacing - 1) > 1e-3) {
             fail("{}: PixelSpacing: found {} x {}, expected {} x {}, as {} has", name,
-                 image.spacing.x, image.spacing.y, first.spacing.x, first.spacing.y,
-                 first.file.filename().string());
-        if (images.size() == 1) return;
-        if (!image.position) fail("{}: ImagePositionPatient: found none, expected one", name);
-        if (image.frames != 1) {
-            fail("{}: NumberOfFrames: found {}, expected 1 in a series of {} files", name,
-                 image.frames, images.size());
+                 frame->column_spacing, frame->row_spacing, first_frame->column_spacing,
+                 first_frame->row_spacing, first->file.filename().string());
         }
+        if (slices.size() > 1 && !frame->position)
+            fail("{}: ImagePositionPatient: found none, expected one", name);
     }
 }
 
-// Returns the position of an image along the slices' normal, in mm.
-double depth_of(const DicomImage& image, const glm::dvec3& normal) {
-    return glm::dot(*image.position, normal);
-}
-
-// Sorts the images by depth along the normal. If several lie at each depth, they are times in the
-// order of InstanceNumber, and only the image of the request's time is kept.
-void order(Images& images, const glm::dvec3& normal, const std::string& name,
-           const VolumeRequest& request) {
-    std::ranges::stable_sort(images, {}, &DicomImage::instance);
-    std::ranges::stable_sort(images, {},
-                             [&](const DicomImage& image) { return depth_of(image, normal); });
-    constexpr double same_place = 1e-4;  // mm; images that are nearer are at one place
-    std::vector<Images> places;
-    for (DicomImage& image : images) {
-        const bool next = places.empty() ||
-                          depth_of(image, normal) > depth_of(places.back()[0], normal) + same_place;
-        if (next) places.emplace_back();
-        places.back().push_back(std::move(image));
+// Returns the slices at each place along the normal, from the lowest to the highest.
+std::vector<Slices> by_place(const Slices& slices, const glm::dvec3& normal) {
+    std::vector<std::pair<double, DicomSlice>> sorted;  // with their depths in mm
+    for (const DicomSlice& slice : slices) {
+        const double depth = glm::dot(slice.frame->position.value_or(glm::dvec3(0)), normal);
+        if (!std::isfinite(depth)) {
+            fail("{}: {}: found a place that is too far away", slice.image->file.string(),
+                 slice.image->place_words);
+        }
+        sorted.emplace_back(depth, slice);
     }
-    for (Images& place : places) {
-        std::ranges::stable_sort(place, {}, &DicomImage::instance);
-        if (place.size() == places[0].size()) continue;
-        fail("{}: found {} images at the place of {}, and {} at that of {}, expected as many", name,
-             place.size(), place[0].file.filename().string(), places[0].size(),
-             places[0][0].file.filename().string());
-    }
-    const std::int64_t time =
-        taken_of(name, "time", request.time, static_cast<std::int64_t>(places[0].size()));
-    images.clear();
-    for (Images& place : places) images.push_back(std::move(place[static_cast<std::size_t>(time)]));
-}
-
-struct SlicePlace {
-    glm::dvec3 position;
-    std::string name;
-};
-
-// Returns the step between slices. Throws Error unless they lie on a line at equal distances.
-glm::dvec3 slice_step(const std::vector<SlicePlace>& slices, const std::string& name) {
-    const std::size_t count = slices.size();
-    std::vector<double> distances;
-    for (std::size_t i = 1; i < count; ++i)
-        distances.push_back(glm::length(slices[i].position - slices[i - 1].position));
-    std::vector<double> sorted = distances;
-    std::ranges::sort(sorted);
-    const double usual = sorted[sorted.size() / 2];
-    for (std::size_t i = 0; i < distances.size(); ++i) {
-        if (usual > 0 && std::abs(distances[i] - usual) <= place_tolerance * usual) continue;
-        fail(
-            "{}: found {:.6g} mm between {} and {}, expected {:.6g} as between most: slices are "
-            "missing or not equally spaced",
-            name, distances[i], slices[i].name, slices[i + 1].name, usual);
-    }
-    const glm::dvec3 step =
-        (slices.back().position - slices.front().position) / static_cast<double>(count - 1);
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec3 place = slices.front().position + static_cast<double>(i) * step;
-        if (glm::length(slices[i].position - place) > 2 * place_tolerance * usual)
-            fail("{}: ImagePositionPatient: {} does not lie on a line with the others", name,
-                 slices[i].name);
-    }
-    return step;
-}
-
-// Returns the places of the files, or of a single file's frames; none if frames lack positions.
-std::vector<SlicePlace> places_of(const Images& images) {
-    std::vector<SlicePlace> places;
-    if (images.size() > 1) {
-        for (const DicomImage& image : images)
-            places.push_back({*image.position, image.file.filename().string()});
-    } else if (images[0].frames == std::ssize(images[0].frame_positions)) {
-        for (const glm::dvec3& position : images[0].frame_positions)
-            places.push_back({position, fmt::format("frame {}", places.size() + 1)});
+    std::ranges::stable_sort(sorted, {}, [](const auto& entry) { return entry.first; });
+    // Places of two phases may differ by what headers' digits, or a scanner's table, explain.
+    const double same_place = std::max(1e-4, 1e-2 * (sorted.back().first - sorted.front().first) /
+                                                 static_cast<double>(sorted.size()));
+    std::vector<Slices> places;
+    double depth = 0;  // of the last place
+    for (const auto& [slice_depth, slice] : sorted) {
+        if (places.empty() || slice_depth > depth + same_place) {
+            places.emplace_back();
+            depth = slice_depth;
+        }
+        places.back().push_back(slice);
     }
     return places;
 }
 
 // Throws Error unless the step between slices is normal to them (it is not if a gantry is tilted).
-void expect_straight(const glm::dvec3& step, const DicomImage& image, const std::string& name) {
-    for (const glm::dvec3& axis : {image.along_row, image.along_column}) {
+void expect_straight(const glm::dvec3& step, const DicomFrame& frame, const std::string& name) {
+    constexpr double mended = 1.75e-3;  // cosine: .1 degree from a right angle, as check_grid() has
+    for (const glm::dvec3& axis : {frame.along_row, frame.along_column}) {
         const double cosine = glm::dot(axis, step) / glm::length(step);
-        if (std::abs(cosine) <= 1e-3) continue;
+        if (std::abs(cosine) <= mended) continue;
         fail(
             "{}: the slices are shifted against each other by {:.3g} of their distance (a tilted "
-            "gantry), expected none",
+            "gantry), expected none: dcm2niix writes them to NIfTI without the tilt",
             name, cosine);
     }
 }
 
-// Finds the images that open_dicom() reads: chooses the series, checks that its images are alike,
-// sorts them along the normal, and takes the step between slices from equally spaced positions.
-DicomSeries read_dicom_series(const Path& path, const VolumeRequest& request) {
+// Sets the grid of sorted slices; says what the file does not tell and what is taken instead, and
+// that shades are not used.
+void set_grid(DicomSeries& series) {
+    const auto& [image, frame] = series.slices.front();
+    std::vector<std::string> missing = image->missing;
+    if (!frame->position) missing.emplace_back("ImagePositionPatient (0, 0, 0 is taken)");
+    if (!missing.empty())
+        warn(fmt::format("{}: found no {}", series.name, fmt::join(missing, ", no ")));
+    if (!image->inverse.empty()) {
+        warn(
+            fmt::format("{}: it says that its lowest value is white ({}): values are as they are "
+                        "stored",
+                        series.name, image->inverse));
+    }
+    SliceLine line{
+        frame->position.value_or(glm::dvec3(0)),
+        glm::cross(frame->along_row, frame->along_column) * std::abs(image->frame_spacing)};
+    if (series.slices.size() > 1) {
+        std::vector<SlicePlace> places;
+        for (const DicomSlice& slice : series.slices)
+            places.push_back({*slice.frame->position, slice.name()});
+        line = fitted_line(places, series.name, image->place_words);
+        expect_straight(line.step, *frame, series.name);
+    }
+    Grid& grid = series.grid;
+    grid = plain_grid({image->slice_columns, image->slice_rows, std::ssize(series.slices)});
+    grid.step = {frame->along_row * frame->column_spacing, frame->along_column * frame->row_spacing,
+                 line.step};
+    grid.origin = line.first;
+    grid.axes = WorldAxes::left_posterior_superior;
+    if (image->has_spacing) grid.unit = "mm";
+    check_grid(series.name, grid, {"ImageOrientationPatient", "ImagePositionPatient"});
+}
+
+// Finds the slices that open_dicom() reads: chooses the series, checks that its images are alike,
+// sorts them along the normal, and takes those of one time.
+DicomSeries read_dicom_series(const Path& path, const VolumeRequest& request,
+                              VolumeContents* contents) {
     DicomSeries series;
     series.name = path.string();
-    series.slices = chosen_series(path, request);
-    expect_alike(series.slices);
-    const DicomImage first = series.slices.front();
-    const glm::dvec3 normal = glm::normalize(glm::cross(first.along_row, first.along_column));
-    glm::dvec3 step = normal * first.spacing.z;
-    if (series.slices.size() > 1) {
-        order(series.slices, normal, series.name, request);
-    } else {
-        taken_of(series.name, "time", request.time, 1);
-    }
-    if (const auto places = places_of(series.slices); places.size() > 1) {
-        step = slice_step(places, series.name);
-        expect_straight(step, first, series.name);
-    }
-    const auto slices = static_cast<std::int64_t>(series.slices.size());
-    Grid& grid = series.grid;
-    grid = plain_grid({first.columns, first.rows, slices > 1 ? slices : first.frames});
-    // Nearly orthogonal vectors are made orthogonal: headers have few digits.
-    grid.step = {first.along_row * first.spacing.x,
-                 glm::cross(normal, first.along_row) * first.spacing.y,
-                 normal * glm::dot(normal, step)};
-    grid.origin = series.slices.front().position.value_or(glm::dvec3(0));
-    grid.axes = WorldAxes::left_posterior_superior;
-    check_grid(series.name, grid, {"PixelSpacing", "ImagePositionPatient"});
+    series.images = chosen_series(path, request, contents);
+    remove_copies(series.images, series.name);
+    const Slices slices = without_localizers(series.images, series.name);
+    expect_alike(slices);
+    const DicomFrame& first = *slices[0].frame;
+    series.slices =
+        slices_of_time(by_place(slices, glm::cross(first.along_row, first.along_column)),
+                       series.name, request, contents);
+    set_grid(series);
     return series;
 }
 
-// Throws Error if a compressed slice has more pixels than its file can hold, before taking memory.
+// Throws Error if a compressed image has more pixels than its file can hold, before taking memory.
 void expect_pixels(const DicomSeries& series) {
     constexpr std::uint64_t most_expansion = 1 << 16;
-    for (const DicomImage& slice : series.slices) {
-        const std::uint64_t there = std::filesystem::file_size(slice.file);
-        if (slice.compressed && slice.byte_count() / most_expansion > there) {
+    for (const DicomImage& image : series.images) {
+        const std::uint64_t there = std::filesystem::file_size(image.file);
+        if (image.compressed && image.byte_count() / most_expansion > there) {
             fail("{}: the header promises {} bytes of pixels, the file has {} in all",
-                 slice.file.string(), slice.byte_count(), there);
+                 image.file.string(), image.byte_count(), there);
         }
     }
 }
 
-// Reads a slice to `to`, scaled to floats. Returns the end of the floats.
-float* read_scaled(const DicomImage& slice, float* to) {
-    std::string raw(slice.byte_count(), '\0');
-    read_dicom_pixels(slice, raw.data());
-    const std::size_t count = raw.size() / bytes_of(slice.type);
-    for (const double value : values_from_bytes<double>(slice.type, raw.data(), count, false))
-        *to++ = static_cast<float>(slice.slope * value + slice.intercept);
-    return to;
-}
+// Reads the samples of a series. If slopes or intercepts differ, as in PET, or if images have
+// tables of values, scales each slice to floats.
+class SliceReader {
+  public:
+    // `line`: the line of the isolated process that reads compressed images; else null.
+    SliceReader(const DicomSeries& series, IsolatedLine* line)
+        : series_(series), first_(*series.slices[0].image) {
+        expect_pixels(series);
+        const DicomFrame& frame = *series.slices[0].frame;
+        samples_ = {series.name, first_.type, nullptr, frame.slope, frame.intercept};
+        is_scaled_ = std::ranges::any_of(series.slices, [&](const DicomSlice& slice) {
+            return !slice.image->lut.empty() || slice.frame->slope != frame.slope ||
+                   slice.frame->intercept != frame.intercept;
+        });
+        if (is_scaled_) samples_ = {series.name, ValueType::float32, nullptr};
+        const auto& size = series.grid.size;
+        const StoredAxis axes[] = {{size[0], {}}, {size[1], {}}, {size[2], {}}};
+        const std::size_t bytes = stored_bytes(series.name, axes, bytes_of(samples_.type));
+        std::size_t largest = 0;  // image that is decoded as a whole
+        for (const DicomImage& image : series.images)
+            largest = std::max(largest, image.byte_count());
+        if (line != nullptr) line->allow_bytes(bytes + largest);
+        samples_.bytes = line != nullptr ? line->shared_memory(bytes) : filled_memory(bytes);
+        slice_values_ = static_cast<std::size_t>(size[0] * size[1]);
+    }
 
-// Reads the samples of a series. If slopes or intercepts differ, as in PET, scales each slice to
-// floats. `line`: the line of the isolated process that reads compressed slices; else null.
-StoredSamples read_slices(const DicomSeries& series, IsolatedLine* line = nullptr) {
-    expect_pixels(series);
-    const DicomImage& first = series.slices.front();
-    StoredSamples samples{series.name, first.type, nullptr, first.slope, first.intercept};
-    const bool scales_alike = std::ranges::all_of(series.slices, [&](const DicomImage& slice) {
-        return slice.slope == first.slope && slice.intercept == first.intercept;
-    });
-    if (!scales_alike) samples = {series.name, ValueType::float32, nullptr};
-    const auto& size = series.grid.size;
-    const StoredAxis axes[] = {{size[0], {}}, {size[1], {}}, {size[2], {}}};
-    const std::size_t bytes = stored_bytes(series.name, axes, bytes_of(samples.type));
-    if (line != nullptr) line->allow_bytes(bytes);
-    samples.bytes = line != nullptr ? line->shared_memory(bytes) : filled_memory(bytes);
-    auto* to = static_cast<char*>(samples.bytes.get());
-    for (const DicomImage& slice : series.slices) {
-        check_interrupt();
-        if (slice.type != first.type) {
-            fail("{}: found {} pixels, expected {}, as the other slices have", slice.file.string(),
-                 name_of(slice.type), name_of(first.type));
+    StoredSamples read() {
+        for (const DicomImage& image : series_.images) {
+            std::optional<DicomPixels> pixels;
+            auto* to = static_cast<char*>(samples_.bytes.get());
+            for (const auto& [its_image, frame] : series_.slices) {
+                if (its_image == &image) {
+                    check_interrupt();
+                    if (!pixels) pixels.emplace(image);
+                    read_slice(*pixels, image, *frame, to);
+                }
+                to += slice_values_ * bytes_of(samples_.type);
+            }
         }
-        if (scales_alike) {
-            read_dicom_pixels(slice, to);
-            to += slice.byte_count();
+        if (padded_ > 0) {
+            warn(fmt::format(
+                "{}: PixelPaddingValue: found it {} times: these samples hold no data, and "
+                "are drawn like others",
+                series_.name, padded_));
+        }
+        return samples_;
+    }
+
+  private:
+    void read_slice(const DicomPixels& pixels, const DicomImage& image, const DicomFrame& frame,
+                    char* to) {
+        if (image.type != first_.type) {
+            fail("{}: found {} pixels, expected {}, as the other slices have", image.file.string(),
+                 name_of(image.type), name_of(first_.type));
+        }
+        char* raw = to;
+        if (is_scaled_) {
+            raw_.resize(slice_values_ * bytes_of(image.type));
+            raw = raw_.data();
+        }
+        if (slice_values_ * bytes_of(image.type) == image.frame_bytes()) {
+            pixels.read(frame.index, raw);
         } else {
-            to = reinterpret_cast<char*>(read_scaled(slice, reinterpret_cast<float*>(to)));
+            read_tile(pixels, image, frame, raw);
+        }
+        if (image.padding) count_padding(image, raw);
+        if (is_scaled_) scale(image, frame, reinterpret_cast<float*>(to));
+    }
+
+    void read_tile(const DicomPixels& pixels, const DicomImage& image, const DicomFrame& frame,
+                   char* to) {
+        if (mosaic_of_ != &image) {
+            mosaic_.resize(image.frame_bytes());
+            pixels.read(frame.index, mosaic_.data());
+            mosaic_of_ = &image;
+        }
+        const std::size_t each = bytes_of(image.type);
+        const std::size_t row_bytes = static_cast<std::size_t>(image.slice_columns) * each;
+        for (std::int64_t row = 0; row < image.slice_rows; ++row, to += row_bytes) {
+            const auto first = static_cast<std::size_t>((frame.first_row + row) * image.columns +
+                                                        frame.first_column);
+            std::memcpy(to, mosaic_.data() + first * each, row_bytes);
         }
     }
-    return samples;
+
+    void count_padding(const DicomImage& image, const char* raw) {
+        with_type(image.type, [&](auto zero) {
+            for (std::size_t i = 0; i < slice_values_; ++i) {
+                std::memcpy(&zero, raw + i * sizeof zero, sizeof zero);
+                const auto value = static_cast<double>(zero);
+                if (value >= image.padding->first && value <= image.padding->second) ++padded_;
+            }
+        });
+    }
+
+    void scale(const DicomImage& image, const DicomFrame& frame, float* to) const {
+        const double last = static_cast<double>(image.lut.size()) - 1;
+        for (const double value :
+             values_from_bytes<double>(image.type, raw_.data(), slice_values_, false)) {
+            if (image.lut.empty()) {
+                *to++ = static_cast<float>(frame.slope * value + frame.intercept);
+            } else {
+                const double at = std::clamp(value - image.lut_first, 0.0, last);
+                *to++ = static_cast<float>(image.lut[static_cast<std::size_t>(at)]);
+            }
+        }
+    }
+
+    const DicomSeries& series_;
+    const DicomImage& first_;
+    StoredSamples samples_;
+    bool is_scaled_ = false;
+    std::size_t slice_values_ = 0, padded_ = 0;
+    std::string raw_, mosaic_;  // pixels of a slice; of an image with tiles
+    const DicomImage* mosaic_of_ = nullptr;
+};
+
+// Returns the files of a folder, but no hidden ones, or, if it has none but a DICOMDIR, the list of
+// a medium's files (PS3.10, 8.6), those of the folders inside it, down to the first that have
+// files.
+std::vector<Path> files_in(const Path& path) {
+    constexpr int most_deep = 4;  // patient, study, series, images
+    std::vector<Path> files, folders{path};
+    for (int depth = 0; depth <= most_deep && files.empty(); ++depth) {
+        std::vector<Path> inner;
+        for (const Path& folder : folders) {
+            std::error_code unreadable;
+            for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
+                if (entry.is_regular_file(unreadable)) {
+                    const std::string name = entry.path().filename().string();
+                    if (name != "DICOMDIR" && !name.starts_with('.')) files.push_back(entry.path());
+                } else if (entry.is_directory(unreadable) && !entry.is_symlink(unreadable)) {
+                    inner.push_back(entry.path());
+                }
+            }
+        }
+        folders = std::move(inner);
+    }
+    return files;
 }
 
 }  // namespace
@@ -295,32 +463,27 @@ StoredSamples read_slices(const DicomSeries& series, IsolatedLine* line = nullpt
 bool is_dicom(const std::filesystem::path& path) {
     std::error_code unreadable;
     if (std::filesystem::is_regular_file(path, unreadable)) return has_dicom_mark(path);
-    int left = 64;  // files of the folder that are looked at
-    for (const auto& entry : std::filesystem::directory_iterator(path, unreadable)) {
-        if (left-- == 0) break;
-        if (entry.is_regular_file(unreadable) && has_dicom_mark(entry.path())) return true;
-    }
-    return false;
+    constexpr std::size_t most = 64;  // files that are looked at
+    std::vector<Path> files = files_in(path);
+    files.resize(std::min(files.size(), most));
+    return std::ranges::any_of(files, has_dicom_mark);
 }
 
 Volume open_dicom(const std::filesystem::path& path, const VolumeRequest& request,
-                  const VolumeUse& /*use*/) {
-    const DicomSeries series = read_dicom_series(path, request);
-    const auto compressed = [](const DicomImage& slice) { return slice.compressed; };
+                  const VolumeUse& use) {
+    const DicomSeries series = read_dicom_series(path, request, use.contents);
+    const auto compressed = [](const DicomSlice& slice) { return slice.image->compressed; };
     if (std::ranges::none_of(series.slices, compressed))
-        return drawn_volume(series.grid, read_slices(series));
+        return drawn_volume(series.grid, SliceReader(series, nullptr).read());
     const ReadSamples found = read_isolated(series.name, "GDCM", [&](IsolatedLine& line) {
-        return ReadSamples{series.grid, read_slices(series, &line)};
+        return ReadSamples{series.grid, SliceReader(series, &line).read()};
     });
     return drawn_volume(series.grid, found.samples);
 }
 
 std::vector<std::filesystem::path> files_of_dicom(const std::filesystem::path& path) {
     if (!std::filesystem::is_directory(path)) return {path};
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(path)) {
-        if (entry.is_regular_file()) files.push_back(entry.path());
-    }
+    std::vector<Path> files = files_in(path);
     std::ranges::sort(files);
     return files;
 }

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// DICOM PS3.10, section 7 (the file); PS3.5, section 7 (the data set); PS3.3, C.7.6.2 (image
-// plane), C.7.6.3 (image pixel), C.11.1 (rescale).
+// DICOM PS3.10, section 7 (the file); PS3.3, C.7.6.3 (image pixel), C.11.1 (modality LUT).
 #include "volume_files/dicom_image.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
-#include <cmath>
 #include <cstring>
-#include <glm/geometric.hpp>
-#include <map>
 #include <string_view>
 
 #include "base/error.h"
 #include "base/input_file.h"
 #include "volume_files/byte_readers.h"
+#include "volume_files/dicom_places.h"
 #include "volume_files/stored_samples.h"
 
 #ifdef LAMINA_HAS_GDCM
@@ -25,290 +23,7 @@
 namespace lamina {
 namespace {
 
-// A data element's group and number: 0x00280010 is (0028,0010).
-using DicomTag = std::uint32_t;
-
-// Returns the numbers of a text, separated by backslashes; none if it holds anything else.
-std::vector<double> dicom_numbers(std::string_view text) {
-    const std::size_t last = text.find_last_not_of(std::string_view(" \0", 2));
-    text = text.substr(0, last == std::string_view::npos ? 0 : last + 1);
-    std::vector<double> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (at < end) {
-        while (at < end && (*at == ' ' || *at == '+')) ++at;
-        double number = 0;
-        const auto [stop, problem] = std::from_chars(at, end, number);
-        if (problem != std::errc{} || !std::isfinite(number)) return {};
-        numbers.push_back(number);
-        at = stop;
-        while (at < end && *at == ' ') ++at;
-        if (at == end) break;
-        if (*at++ != '\\') return {};
-    }
-    return numbers;
-}
-
-// The contents of a DICOM file, without its pixels.
-struct DicomElements {
-    std::string transfer_syntax;
-    bool big_endian = false;    // byte order of the data set
-    bool encapsulated = false;  // the pixels are compressed
-    // Values of the elements in kept_tags. `values`: those outside of sequences. `shared`: the
-    // first ones in the sequences for all frames or for each frame (shared_groups, frame_groups).
-    std::map<DicomTag, std::string> values, shared;
-    std::vector<std::string> frame_positions;  // ImagePositionPatient of each frame
-    std::uint64_t pixels_begin = 0;            // offset in the file
-    std::uint64_t pixel_bytes = 0;             // 0 if they are encapsulated
-    std::string pixel_form;                    // VR of the pixels: "OB", "OW"
-
-    // Returns the element's value outside of sequences, else that in `shared`, else an empty text.
-    std::string text(DicomTag tag) const {
-        for (const auto* const map : {&values, &shared}) {
-            if (const auto found = map->find(tag); found != map->end()) return found->second;
-        }
-        return {};
-    }
-
-    std::vector<double> numbers(DicomTag tag) const { return dicom_numbers(text(tag)); }
-
-    double number(DicomTag tag, double otherwise) const {
-        const auto found = numbers(tag);
-        return found.size() == 1 ? found[0] : otherwise;
-    }
-
-    // Returns the whole number in an element of two bytes (VR US); 0 if the file lacks it.
-    std::int64_t whole(DicomTag tag) const {
-        const std::string word = text(tag);
-        if (word.size() < 2) return 0;
-        const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(word[i]); };
-        return big_endian ? byte(0) << 8 | byte(1) : byte(1) << 8 | byte(0);
-    }
-};
-
-constexpr DicomTag transfer_syntax_tag = 0x00020010, pixel_data_tag = 0x7fe00010,
-                   item_tag = 0xfffee000, item_end = 0xfffee00d, sequence_end = 0xfffee0dd,
-                   shared_groups = 0x52009229, frame_groups = 0x52009230;
-constexpr DicomTag series_description = 0x0008103e, slice_thickness = 0x00180050,
-                   slice_spacing = 0x00180088, series_uid = 0x0020000e,
-                   instance_number = 0x00200013, image_position = 0x00200032,
-                   image_orientation = 0x00200037, samples_per_pixel = 0x00280002,
-                   frame_count = 0x00280008, row_count = 0x00280010, column_count = 0x00280011,
-                   pixel_spacing = 0x00280030, bits_allocated = 0x00280100,
-                   bits_stored = 0x00280101, highest_bit = 0x00280102, pixel_sign = 0x00280103,
-                   rescale_intercept = 0x00281052, rescale_slope = 0x00281053;
-constexpr DicomTag kept_tags[] = {
-    series_description, slice_thickness,   slice_spacing,     series_uid,  instance_number,
-    image_position,     image_orientation, samples_per_pixel, frame_count, row_count,
-    column_count,       pixel_spacing,     bits_allocated,    bits_stored, highest_bit,
-    pixel_sign,         rescale_intercept, rescale_slope};
-constexpr std::uint32_t undefined = 0xffffffff;  // length: up to a delimiter
-constexpr int most_depth = 16;                   // of sequences in sequences
-constexpr std::size_t most_frames = 1 << 20;
-
-// Reads the elements of a file up to its pixels. Throws Error if it is truncated or damaged.
-class ElementReader {
-  public:
-    explicit ElementReader(const std::filesystem::path& path)
-        : name_(path.string()), file_(open_to_read(path)), left_(bytes_left(file_.get())) {}
-
-    DicomElements read() {
-        skip(132);  // the preamble of 128 bytes and "DICM"
-        while (left_ > 0 && !found_pixels_) read_element(0, 0);
-        if (!found_pixels_) fail("{}: found no pixels before its end", name_);
-        return std::move(elements_);
-    }
-
-  private:
-    struct Element {
-        DicomTag tag = 0;
-        std::string form;  // VR; empty if it is implicit
-        std::uint32_t length = 0;
-    };
-
-    [[noreturn]] void fail_at(const Element& element, std::uint64_t found) const {
-        fail("{}: truncated or damaged: element ({:04x},{:04x}) has {} bytes, the file {} more",
-             name_, element.tag >> 16, element.tag & 0xffff, element.length, found);
-    }
-
-    void expect(std::uint64_t count) const {
-        if (count > left_)
-            fail("{}: truncated: found {} bytes more, expected {}", name_, left_, count);
-    }
-
-    void skip(std::uint64_t count) {
-        expect(count);
-        fseeko(file_.get(), static_cast<off_t>(count), SEEK_CUR);
-        left_ -= count;
-    }
-
-    void step_back() {
-        fseeko(file_.get(), -4, SEEK_CUR);
-        left_ += 4;
-    }
-
-    std::string bytes(std::size_t count) {
-        expect(count);
-        std::string text(count, '\0');
-        if (std::fread(text.data(), 1, count, file_.get()) != count)
-            fail("{}: cannot be read", name_);
-        left_ -= count;
-        return text;
-    }
-
-    std::uint32_t number(std::size_t count) {
-        const std::string word = bytes(count);
-        std::uint32_t value = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t at = big_endian_ ? i : count - 1 - i;
-            value = value << 8 | static_cast<unsigned char>(word[at]);
-        }
-        return value;
-    }
-
-    DicomTag read_tag() {
-        const std::uint32_t group = number(2);
-        return group << 16 | number(2);
-    }
-
-    // Reads tag, VR and length of an element. Elements of group 2 have explicit VRs and
-    // little-endian numbers; those after them are coded as the transfer syntax says.
-    Element read_head(int depth) {
-        Element element;
-        element.tag = read_tag();
-        if (depth == 0 && in_meta_ && element.tag >> 16 != 2) {
-            in_meta_ = false;
-            step_back();
-            take_syntax();
-            element.tag = read_tag();
-        }
-        if (element.tag >> 16 == 0xfffe || !explicit_) {
-            element.length = number(4);
-            return element;
-        }
-        element.form = bytes(2);
-        static constexpr std::string_view long_forms = "OB OD OF OL OV OW SQ SV UC UN UR UT UV";
-        if (long_forms.find(element.form) != std::string_view::npos) {
-            skip(2);
-            element.length = number(4);
-        } else {
-            const auto upper = [](char c) { return c >= 'A' && c <= 'Z'; };
-            if (!std::ranges::all_of(element.form, upper)) {
-                fail(
-                    "{}: damaged: element ({:04x},{:04x}) has the form '{}', expected two capitals",
-                    name_, element.tag >> 16, element.tag & 0xffff, one_line(element.form));
-            }
-            element.length = number(2);
-        }
-        return element;
-    }
-
-    // Sets explicit_ and big_endian_ by the transfer syntax. Throws Error if that cannot be read.
-    void take_syntax() {
-        const std::string& syntax = elements_.transfer_syntax;
-        if (syntax == "1.2.840.10008.1.2") {
-            explicit_ = false;
-        } else if (syntax == "1.2.840.10008.1.2.2") {
-            big_endian_ = elements_.big_endian = true;
-        } else if (syntax == "1.2.840.10008.1.2.1.99" || !syntax.starts_with("1.2.840.10008.1.2")) {
-            fail("{}: transfer syntax: found '{}', expected one of images that is not deflated",
-                 name_, one_line(syntax));
-        }
-    }
-
-    // Reads an element. `sequence`: the tag of the outermost sequence that holds it; 0: none does.
-    void read_element(int depth, DicomTag sequence) {
-        const Element element = read_head(depth);
-        if (element.tag == pixel_data_tag && depth == 0) {
-            found_pixels_ = true;
-            elements_.pixel_form = element.form.empty() ? "OW" : element.form;
-            elements_.encapsulated = element.length == undefined;
-            elements_.pixels_begin = static_cast<std::uint64_t>(ftello(file_.get()));
-            if (elements_.encapsulated) return;
-            if (element.length > left_) fail_at(element, left_);
-            elements_.pixel_bytes = element.length;
-            return;
-        }
-        const bool groups = element.tag == shared_groups || element.tag == frame_groups;
-        if (element.form == "SQ" || element.length == undefined || (groups && depth == 0)) {
-            read_sequence(element, depth + 1, depth == 0 ? element.tag : sequence);
-            return;
-        }
-        if (element.length > left_) fail_at(element, left_);
-        keep_or_skip(element, depth, sequence);
-    }
-
-    // Keeps the value of an element in kept_tags (DicomElements::values, shared); skips others.
-    void keep_or_skip(const Element& element, int depth, DicomTag sequence) {
-        constexpr std::uint32_t most_bytes = 1 << 12;
-        const bool kept = std::ranges::count(kept_tags, element.tag) > 0;
-        const bool wanted =
-            element.tag == transfer_syntax_tag ||
-            (kept && (depth == 0 || sequence == shared_groups || sequence == frame_groups));
-        if (!wanted || element.length > most_bytes) return skip(element.length);
-        std::string value = bytes(element.length);
-        if (element.tag == transfer_syntax_tag) {
-            elements_.transfer_syntax =
-                value.substr(0, value.find_last_not_of(std::string(" \0", 2)) + 1);
-        } else if (depth == 0) {
-            elements_.values[element.tag] = std::move(value);
-        } else if (sequence == frame_groups && element.tag == image_position) {
-            if (elements_.frame_positions.size() >= most_frames)
-                fail("{}: found more than {} frames", name_, most_frames);
-            elements_.frame_positions.push_back(std::move(value));
-        } else {
-            elements_.shared.emplace(element.tag, std::move(value));  // the first frame's is kept
-        }
-    }
-
-    // Reads the items of a sequence, each of elements. `top`: the tag of the outermost sequence.
-    void read_sequence(const Element& sequence, int depth, DicomTag top) {
-        if (depth > most_depth) fail("{}: found sequences more than {} deep", name_, most_depth);
-        if (sequence.length != undefined && sequence.length > left_) fail_at(sequence, left_);
-        const bool was_explicit = explicit_;
-        if (sequence.form == "UN") explicit_ = false;  // inside, VRs are implicit: PS3.5, 6.2.2
-        const std::uint64_t end = sequence.length == undefined ? 0 : left_ - sequence.length;
-        while (sequence.length == undefined || left_ > end) {
-            const Element item = read_head(depth);
-            if (item.tag == sequence_end) break;
-            if (item.tag != item_tag) {
-                fail("{}: damaged: found element ({:04x},{:04x}) in a sequence, expected an item",
-                     name_, item.tag >> 16, item.tag & 0xffff);
-            }
-            read_item(item, depth, top);
-        }
-        explicit_ = was_explicit;
-        if (sequence.length != undefined && left_ != end) fail_at(sequence, left_);
-    }
-
-    void read_item(const Element& item, int depth, DicomTag top) {
-        if (item.length != undefined && item.length > left_) fail_at(item, left_);
-        const std::uint64_t end = item.length == undefined ? 0 : left_ - item.length;
-        while (item.length == undefined || left_ > end) {
-            if (item.length == undefined && at_item_end()) return;
-            read_element(depth, top);
-        }
-        if (item.length != undefined && left_ != end) fail_at(item, left_);
-    }
-
-    // Tells if an item of undefined length ends here, and then moves past its end.
-    bool at_item_end() {
-        const DicomTag tag = read_tag();
-        if (tag == item_end) {
-            skip(4);
-            return true;
-        }
-        step_back();
-        return false;
-    }
-
-    std::string name_;
-    OpenedFile file_;
-    std::uint64_t left_;  // bytes from here to the end of the file
-    bool in_meta_ = true, explicit_ = true, big_endian_ = false;
-    bool found_pixels_ = false;
-    DicomElements elements_;
-};
+constexpr std::int64_t most_frames = 1 << 17;
 
 #ifdef LAMINA_HAS_GDCM
 
@@ -325,9 +40,9 @@ void decode_dicom(const DicomImage& image, char* to) {
     const gdcm::Image& decoded = reader.GetImage();
     const unsigned* const sizes = decoded.GetDimensions();
     const std::int64_t frames = decoded.GetNumberOfDimensions() > 2 ? sizes[2] : 1;
-    if (sizes[0] != image.columns || sizes[1] != image.rows || frames != image.frames) {
+    if (sizes[0] != image.columns || sizes[1] != image.rows || frames != image.frame_count) {
         fail("{}: found {} x {} x {} pixels, expected {} x {} x {}", name, sizes[0], sizes[1],
-             frames, image.columns, image.rows, image.frames);
+             frames, image.columns, image.rows, image.frame_count);
     }
     const std::size_t bytes = image.byte_count();
     const std::uint64_t there = std::filesystem::file_size(image.file);
@@ -348,64 +63,80 @@ void decode_dicom(const DicomImage& image, char* /*to*/) {
 
 #endif
 
-std::optional<glm::dvec3> place_of(const std::vector<double>& numbers) {
-    if (numbers.size() != 3) return {};
-    return glm::dvec3(numbers[0], numbers[1], numbers[2]);
+// Returns a number of VR US or SS, read as US: it has a sign if pixels have.
+double signed_if(const DicomElements& elements, double number) {
+    return elements.whole(dicom_tag::pixel_sign) == 1 && number >= 1 << 15 ? number - (1 << 16)
+                                                                           : number;
 }
 
-std::string trimmed(const std::string& text) {
-    const std::size_t end = text.find_last_not_of(std::string(" \0", 2));
-    return end == std::string::npos ? "" : one_line(text.substr(0, end + 1));
+// Returns why a file is no volume, by its SOP class (PS3.6, Annex A) or its colours; else nothing.
+std::string refusal_of(const DicomElements& elements) {
+    const std::string kind = elements.text(dicom_tag::sop_class);
+    // Segmentation and Label Map Segmentation; others of 66 (registrations, surfaces) have no
+    // pixels.
+    if (kind == "1.2.840.10008.5.1.4.1.1.66.4" || kind == "1.2.840.10008.5.1.4.1.1.66.7") {
+        return "SOPClassUID: found a segmentation (DICOM SEG), expected an image: dcmqi's "
+               "segimage2itkimage, or 3D Slicer, writes its labels to NRRD or NIfTI, which are "
+               "read";
+    }
+    if (kind == "1.2.840.10008.5.1.4.1.1.77.1.6")
+        return "SOPClassUID: found a whole-slide image, whose frames are tiles, expected slices";
+    if (elements.text(dicom_tag::media_class) == "1.2.840.10008.1.3.10")
+        return "found a DICOMDIR, a list of files, expected the folder that it lies in";
+    if (elements.pixel_tag == 0) {
+        return fmt::format("found no pixels (SOPClassUID {}), expected an image",
+                           kind.empty() ? "is missing" : kind);
+    }
+    const std::string colours = elements.text(dicom_tag::photometric);
+    if (const auto samples = elements.whole(dicom_tag::samples_per_pixel); samples > 1) {
+        return fmt::format(
+            "SamplesPerPixel: found {} ({}), expected 1: pictures in colour are no "
+            "volume",
+            samples, colours);
+    }
+    if (colours == "PALETTE COLOR") {
+        return "PhotometricInterpretation: found PALETTE COLOR, expected MONOCHROME2: pictures in "
+               "colour are no volume";
+    }
+    return {};
 }
 
-// Sets position, orientation and spacing of an image. Throws Error if these are invalid.
-void read_place(const DicomElements& elements, DicomImage& image) {
-    image.position = place_of(elements.numbers(image_position));
-    for (const std::string& text : elements.frame_positions) {
-        if (const auto place = place_of(dicom_numbers(text)))
-            image.frame_positions.push_back(*place);
+// Reads the table that gives the values of samples: PS3.3, C.11.1.1.
+void read_lut(const DicomElements& elements, DicomImage& image) {
+    const auto table = dicom_tag::modality_lut;
+    const std::string* const data = elements.find_in(table, 0, dicom_tag::lut_data);
+    const auto form = elements.numbers_in(table, 0, dicom_tag::lut_descriptor);
+    if (data == nullptr && form.empty()) return;
+    const auto count = form.size() == 3 && form[0] > 0 ? static_cast<std::size_t>(form[0]) : 65536;
+    if (form.size() == 3 && data != nullptr && form[2] <= 8 && data->size() < 2 * count) {
+        for (const char byte : *data) image.lut.push_back(static_cast<unsigned char>(byte));
+    } else {
+        for (const double value : elements.numbers_in(table, 0, dicom_tag::lut_data))
+            image.lut.push_back(static_cast<std::uint16_t>(value));
     }
-    if (!image.position && !image.frame_positions.empty())
-        image.position = image.frame_positions.front();
-    if (const auto v = elements.numbers(image_orientation); v.size() == 6) {
-        image.along_row = {v[0], v[1], v[2]};
-        image.along_column = {v[3], v[4], v[5]};
+    if (form.size() != 3 || image.lut.size() < count) {
+        fail("{}: ModalityLUTSequence: found {} values, expected {} as its LUTDescriptor says",
+             image.file.string(), image.lut.size(), count);
     }
-    const double row_length = glm::length(image.along_row),
-                 column_length = glm::length(image.along_column),
-                 cosine = glm::dot(image.along_row, image.along_column);
-    if (!(std::abs(row_length - 1) < 1e-2 && std::abs(column_length - 1) < 1e-2 &&
-          std::abs(cosine) < 1e-2)) {
-        fail(
-            "{}: ImageOrientationPatient: found {}, expected two vectors of length 1 at a right "
-            "angle",
-            image.file.string(), trimmed(elements.text(image_orientation)));
-    }
-    const auto spacing = elements.numbers(pixel_spacing);  // between rows, then between columns
-    if (spacing.size() == 2) image.spacing = {spacing[1], spacing[0], 1};
-    if (!(image.spacing.x > 0 && image.spacing.y > 0)) {
-        fail("{}: PixelSpacing: found {}, expected numbers above 0", image.file.string(),
-             trimmed(elements.text(pixel_spacing)));
-    }
-    const double thickness = elements.number(slice_thickness, 1);
-    image.spacing.z = std::abs(elements.number(slice_spacing, thickness));
-    if (image.spacing.z == 0) image.spacing.z = 1;
+    image.lut.resize(count);
+    image.lut_first = signed_if(elements, form[1]);
 }
 
 // Sets type, bits, byte order and place of the pixels. Throws Error if they cannot be read.
 void read_form(const DicomElements& elements, DicomImage& image) {
     const std::string name = image.file.string();
-    if (const auto samples = elements.whole(samples_per_pixel); samples > 1) {
-        fail("{}: SamplesPerPixel: found {}, expected 1: pictures in colour are no volume", name,
-             samples);
-    }
-    const std::int64_t allocated = elements.whole(bits_allocated);
-    const bool is_signed = elements.whole(pixel_sign) == 1;
-    if (allocated != 8 && allocated != 16 && allocated != 32)
+    const bool floats = elements.pixel_tag != dicom_tag::pixels;
+    const std::int64_t allocated = elements.pixel_tag == dicom_tag::double_pixels
+                                       ? 64
+                                       : elements.whole(dicom_tag::bits_allocated);
+    const bool is_signed = floats || elements.whole(dicom_tag::pixel_sign) == 1;
+    if (allocated != 8 && allocated != 16 && allocated != 32 && !floats)
         fail("{}: BitsAllocated: found {}, expected 8, 16 or 32", name, allocated);
-    image.type = *number_type(static_cast<std::size_t>(allocated / 8), true, is_signed);
-    image.stored_bits = elements.whole(bits_stored);
-    image.high_bit = elements.whole(highest_bit);
+    if (floats && allocated != (elements.pixel_tag == dicom_tag::float_pixels ? 32 : 64))
+        fail("{}: BitsAllocated: found {}, expected 32 for FloatPixelData", name, allocated);
+    image.type = *number_type(static_cast<std::size_t>(allocated / 8), !floats, is_signed);
+    image.stored_bits = floats ? allocated : elements.whole(dicom_tag::bits_stored);
+    image.high_bit = floats ? allocated - 1 : elements.whole(dicom_tag::high_bit);
     if (image.stored_bits < 1 || image.stored_bits > allocated || image.high_bit >= allocated ||
         image.high_bit + 1 < image.stored_bits) {
         fail("{}: BitsStored and HighBit: found {} and {}, expected them within {} bits", name,
@@ -413,7 +144,7 @@ void read_form(const DicomElements& elements, DicomImage& image) {
     }
     image.big_endian = elements.big_endian;
     image.swapped_bytes = elements.big_endian && allocated == 8 && elements.pixel_form == "OW";
-    image.transfer_syntax = trimmed(elements.transfer_syntax);
+    image.transfer_syntax = elements.transfer_syntax;
     image.compressed = elements.encapsulated;
     image.pixels_begin = elements.pixels_begin;
     image.pixel_bytes = elements.pixel_bytes;
@@ -427,6 +158,14 @@ void read_form(const DicomElements& elements, DicomImage& image) {
     if (!image.compressed && image.pixel_bytes < image.byte_count()) {
         fail("{}: found {} bytes of pixels, expected {}", name, image.pixel_bytes,
              image.byte_count());
+    }
+    if (image.compressed &&
+        static_cast<std::uint64_t>(image.frame_count) > std::filesystem::file_size(image.file)) {
+        fail("{}: NumberOfFrames: found {}, more than the file has bytes", name, image.frame_count);
+    }
+    if (const auto from = elements.number(dicom_tag::padding); from && !floats) {
+        const double to = elements.number(dicom_tag::padding_limit).value_or(*from);
+        image.padding = std::minmax({signed_if(elements, *from), signed_if(elements, to)});
     }
 }
 
@@ -465,43 +204,80 @@ void normalize(const DicomImage& image, char* pixels, std::size_t count) {
 
 }  // namespace
 
-bool has_dicom_mark(const std::filesystem::path& file) {
-    return file_beginning(file, 132).find("DICM", 128) == 128;
-}
-
 std::optional<DicomImage> read_dicom_image(const std::filesystem::path& file) {
     if (!has_dicom_mark(file)) return {};
-    const DicomElements elements = ElementReader(file).read();
+    const DicomElements elements = read_dicom_elements(file);
     DicomImage image;
     image.file = file;
-    image.series = trimmed(elements.text(series_uid));
-    image.description = trimmed(elements.text(series_description));
-    image.rows = elements.whole(row_count);
-    image.columns = elements.whole(column_count);
-    if (image.rows == 0 || image.columns == 0)
+    image.series = elements.text(dicom_tag::series);
+    image.description = elements.text(dicom_tag::series_description);
+    image.instance_uid = elements.text(dicom_tag::sop_instance);
+    image.rows = image.slice_rows = elements.whole(dicom_tag::rows);
+    image.columns = image.slice_columns = elements.whole(dicom_tag::columns);
+    const bool has_size = image.rows > 0 && image.columns > 0;
+    if (has_size && elements.pixel_tag == 0)
+        fail("{}: found no pixels before its end", file.string());
+    image.refusal = refusal_of(elements);
+    if (!image.refusal.empty()) return image;
+    if (!has_size)
         fail("{}: found {} x {} pixels, expected some", file.string(), image.columns, image.rows);
-    const double number = elements.number(instance_number, 0);
-    if (std::abs(number) < 1e15) image.instance = static_cast<std::int64_t>(number);
-    const double frames = elements.number(frame_count, 1);
-    if (!(frames >= 1 && frames <= (1 << 20)))
-        fail("{}: NumberOfFrames: found {}, expected 1 to {}", file.string(), frames, 1 << 20);
-    image.frames = static_cast<std::int64_t>(frames);
-    image.slope = elements.number(rescale_slope, 1);
-    image.intercept = elements.number(rescale_intercept, 0);
-    if (image.slope == 0) fail("{}: RescaleSlope: found 0, expected another number", file.string());
-    read_place(elements, image);
+    const double frames = elements.number(dicom_tag::frame_count).value_or(1);
+    if (!(frames >= 1 && frames <= most_frames)) {
+        fail("{}: NumberOfFrames: found {}, expected 1 to {}", file.string(), frames, most_frames);
+    }
+    image.frame_count = static_cast<std::int64_t>(frames);
+    image.is_localizer =
+        elements.text(dicom_tag::image_type).find("LOCALIZER") != std::string::npos;
+    // Either says how an image is shown (PS3.3, C.7.6.3.1.2 and C.11.6.1.2), which a warning tells.
+    if (elements.text(dicom_tag::photometric) == "MONOCHROME1")
+        image.inverse = "PhotometricInterpretation MONOCHROME1";
+    else if (elements.text(dicom_tag::lut_shape) == "INVERSE")
+        image.inverse = "PresentationLUTShape INVERSE";
     read_form(elements, image);
+    read_lut(elements, image);
+    place_frames(elements, image);
     return image;
 }
 
-void read_dicom_pixels(const DicomImage& image, char* to) {
-    if (image.compressed) return decode_dicom(image, to);
-    const OpenedFile file = open_to_read(image.file, static_cast<std::int64_t>(image.pixels_begin));
-    const std::size_t bytes = image.byte_count();
+DicomPixels::DicomPixels(const DicomImage& image) : image_(image) {
+    if (!image.compressed || image.frame_count == 1) return;
+    decoded_.resize(image.byte_count());
+    decode_dicom(image, decoded_.data());
+}
+
+void DicomPixels::read(std::int64_t frame, char* to) const {
+    const std::size_t bytes = image_.frame_bytes();
+    const std::size_t begin = static_cast<std::size_t>(frame) * bytes;
+    if (!decoded_.empty()) {
+        std::memcpy(to, decoded_.data() + begin, bytes);
+        return;
+    }
+    if (image_.compressed) return decode_dicom(image_, to);
+    const OpenedFile file =
+        open_to_read(image_.file, static_cast<std::int64_t>(image_.pixels_begin + begin));
     const std::size_t found = std::fread(to, 1, bytes, file.get());
     if (found != bytes)
-        fail("{}: found {} bytes of pixels, expected {}", image.file.string(), found, bytes);
-    normalize(image, to, bytes / bytes_of(image.type));
+        fail("{}: found {} bytes of pixels, expected {}", image_.file.string(), found, bytes);
+    normalize(image_, to, bytes / bytes_of(image_.type));
+}
+
+bool same_pixels(const DicomImage& a, const DicomFrame& in_a, const DicomImage& b,
+                 const DicomFrame& in_b) {
+    const bool several = a.frame_count > 1 || b.frame_count > 1;
+    if (a.compressed != b.compressed || a.frame_bytes() != b.frame_bytes()) return false;
+    if (a.compressed && several) return false;
+    const auto stored = [](const DicomImage& image, const DicomFrame& frame) {
+        const std::size_t bytes = image.frame_bytes();
+        const std::size_t before =
+            image.compressed ? 0 : static_cast<std::size_t>(frame.index) * bytes;
+        const OpenedFile file =
+            open_to_read(image.file, static_cast<std::int64_t>(image.pixels_begin + before));
+        // Compressed pixels are compared to the end of their file.
+        std::string pixels(image.compressed ? bytes_left(file.get()) : bytes, '\0');
+        pixels.resize(std::fread(pixels.data(), 1, pixels.size(), file.get()));
+        return pixels;
+    };
+    return stored(a, in_a) == stored(b, in_b);
 }
 
 }  // namespace lamina

@@ -12,12 +12,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <exception>
 #include <fstream>
 #include <mutex>
 #include <new>
+#include <type_traits>
 
 #include "base/client.h"
 #include "base/error.h"
@@ -160,10 +162,16 @@ void end_with_starter(pid_t starter) {
 
 // The answer of read_isolated()'s process, as it lies in memory: both are the same program.
 struct ReadHead {
-    Grid grid;
+    std::array<std::int64_t, 3> size;
+    std::array<Centering, 3> centering;
+    glm::dvec3 origin;
+    std::array<glm::dvec3, 3> step;
+    WorldAxes axes;
+    char unit[64];  // ends with a zero byte; longer units are left out
     ValueType type;
     double scale, offset;
 };
+static_assert(std::is_trivially_copyable_v<ReadHead>);
 
 }  // namespace
 
@@ -277,19 +285,36 @@ void IsolatedProcess::fail_as_ended() {
          WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "none");
 }
 
+std::shared_ptr<void> isolated_bytes(const std::string& name, const char* library,
+                                     std::size_t bytes, std::size_t decoded,
+                                     const std::function<void(char*)>& fill) {
+    constexpr char filled = 1;
+    IsolatedProcess process(name, library, [&](IsolatedLine& line) {
+        line.allow_bytes(std::max(bytes, decoded));
+        fill(static_cast<char*>(line.shared_memory(bytes).get()));
+        line.answer(&filled, sizeof filled);
+    });
+    char answer = 0;
+    process.receive(&answer, sizeof answer);
+    return process.shared_memory(bytes);
+}
+
 ReadSamples read_isolated(const std::string& name, const char* library,
                           const std::function<ReadSamples(IsolatedLine&)>& read) {
     IsolatedProcess process(name, library, [&](IsolatedLine& line) {
         const ReadSamples found = read(line);
-        const ReadHead head{found.grid, found.samples.type, found.samples.scale,
-                            found.samples.offset};
+        const Grid& grid = found.grid;
+        ReadHead head{grid.size,          grid.centering,      grid.origin,
+                      grid.step,          grid.axes,           {},
+                      found.samples.type, found.samples.scale, found.samples.offset};
+        if (grid.unit.size() < sizeof head.unit) grid.unit.copy(head.unit, grid.unit.size());
         line.answer(&head, sizeof head);
     });
     ReadHead head;
     process.receive(&head, sizeof head);
-    const std::size_t bytes =
-        static_cast<std::size_t>(head.grid.sample_count()) * bytes_of(head.type);
-    return {head.grid, {name, head.type, process.shared_memory(bytes), head.scale, head.offset}};
+    const Grid grid{head.size, head.centering, head.origin, head.step, head.axes, head.unit};
+    const std::size_t bytes = static_cast<std::size_t>(grid.sample_count()) * bytes_of(head.type);
+    return {grid, {name, head.type, process.shared_memory(bytes), head.scale, head.offset}};
 }
 
 }  // namespace lamina

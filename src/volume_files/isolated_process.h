@@ -60,6 +60,12 @@ class IsolatedProcess {
     bool ended_ = false;
 };
 
+// Calls `fill` in an isolated process, and returns the `bytes` bytes of memory that it has filled.
+// `decoded`: how many bytes the library decodes for that, which bounds its time and memory.
+std::shared_ptr<void> isolated_bytes(const std::string& name, const char* library,
+                                     std::size_t bytes, std::size_t decoded,
+                                     const std::function<void(char*)>& fill);
+
 // The grid and the samples that a reader has found in a file.
 struct ReadSamples {
     Grid grid;
