@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t max_header_bytes = 65536;
 constexpr std::size_t most_axes = 32;  // NumPy's own limit
 
-void read_bytes(std::ifstream& stream, const std::string& name, void* bytes, std::size_t count) {
+void read_bytes(std::istream& stream, const std::string& name, void* bytes, std::size_t count) {
     stream.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count));
     if (!stream) fail("{}: cannot read as NPY: the file ends too early", name);
 }
@@ -65,6 +65,14 @@ void read_pixels(std::ifstream& stream, const std::string& name, std::int64_t ch
 NpyHeader::NpyHeader(const std::filesystem::path& path) : name_(path.string()) {
     std::ifstream stream(path, std::ios::binary);
     if (!stream) fail("{}: cannot open: {}", name_, std::strerror(errno));
+    read(stream);
+}
+
+NpyHeader::NpyHeader(std::string name, std::istream& stream) : name_(std::move(name)) {
+    read(stream);
+}
+
+void NpyHeader::read(std::istream& stream) {
     char start[8] = {};
     read_bytes(stream, name_, start, sizeof start);
     if (std::string_view(start, npy_magic.size()) != npy_magic)

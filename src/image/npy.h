@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <istream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,8 @@ constexpr std::string_view npy_magic = "\x93NUMPY";
 class NpyHeader {
   public:
     explicit NpyHeader(const std::filesystem::path& path);
+    // Reads it from a stream. `name`: for messages.
+    NpyHeader(std::string name, std::istream& stream);
 
     std::string descr() const;  // type of the elements, as "<f4"; empty if the value is no string
     bool is_fortran_order() const;
@@ -28,6 +31,7 @@ class NpyHeader {
     [[noreturn]] void wrong(const char* key, std::string_view expected) const;
 
   private:
+    void read(std::istream& stream);
     std::string_view value(std::string_view key) const;  // the text of the value
 
     std::string name_;  // name of the file

@@ -5,8 +5,13 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
+#include <map>
 #include <sstream>
 #include <system_error>
+
+#include "base/client.h"
+#include "base/error.h"
 
 namespace lamina {
 namespace {
@@ -43,6 +48,35 @@ bool comes_before(std::string_view a, std::string_view b) {
     }
     if (a.empty() != b.empty()) return a.empty();
     return whole_a < whole_b;  // names that differ in leading zeros alone
+}
+
+// The parts of a file's name: runs of digits, and what is between them with '#' for each run.
+struct NameParts {
+    explicit NameParts(std::string_view name) {
+        while (!name.empty()) {
+            const std::string_view run = take_run(name);
+            text += is_digit(run[0]) ? "#" : run;
+            if (is_digit(run[0])) numbers.emplace_back(without_zeros(run));
+        }
+    }
+    std::string text;
+    std::vector<std::string> numbers;  // without zeros in front
+};
+
+// Returns "3, 7 to 9": the numbers between those of an increasing series that are no steps of it.
+std::string gaps_of(const std::vector<std::int64_t>& numbers) {
+    std::int64_t step = std::numeric_limits<std::int64_t>::max();
+    for (std::size_t i = 1; i < numbers.size(); ++i)
+        step = std::min(step, numbers[i] - numbers[i - 1]);
+    std::string gaps;
+    if (step < 1) return gaps;  // numbers that are too large for whole_number()
+    for (std::size_t i = 1; i < numbers.size() && gaps.size() < 100; ++i) {
+        const std::int64_t first = numbers[i - 1] + step, last = numbers[i] - step;
+        if (first > last) continue;
+        gaps += fmt::format("{}{}", gaps.empty() ? "" : ", ", first);
+        if (last > first) gaps += fmt::format(" to {}", last);
+    }
+    return gaps;
 }
 
 }  // namespace
@@ -103,6 +137,55 @@ std::vector<std::filesystem::path> files_in_folder(const std::filesystem::path& 
         return comes_before(a.filename().string(), b.filename().string());
     });
     return files;
+}
+
+void warn_of_series(const std::string& name, const std::vector<std::filesystem::path>& files) {
+    if (files.size() < 2) return;
+    std::map<std::string, std::vector<NameParts>> series;
+    for (const auto& file : files) {
+        const NameParts parts(file.filename().string());
+        series[parts.text].push_back(parts);
+    }
+    if (series.size() == files.size()) {
+        warn(
+            fmt::format("{}: the names of its {} files do not differ in a number alone: they are "
+                        "taken in alphabetical order",
+                        name, files.size()));
+        return;
+    }
+    if (series.size() > 1) {
+        const auto& [one, its] = *series.begin();
+        const auto& [other, others] = *std::next(series.begin());
+        fail(
+            "{}: found {} series of files, such as {} of '{}' and {} of '{}', expected one: give "
+            "each "
+            "a folder of its own",
+            name, series.size(), its.size(), one_line(one), others.size(), one_line(other));
+    }
+    const auto& [text, parts] = *series.begin();
+    std::vector<std::size_t> changing;
+    for (std::size_t i = 0; i < parts[0].numbers.size(); ++i) {
+        if (std::ranges::any_of(parts, [&](const NameParts& each) {
+                return each.numbers[i] != parts[0].numbers[i];
+            }))
+            changing.push_back(i);
+    }
+    if (changing.size() != 1) {
+        fail(
+            "{}: found {} numbers that change in the names '{}', expected one, of the slice: give "
+            "each channel and time a folder of its own",
+            name, changing.size(), one_line(text));
+    }
+    std::vector<std::int64_t> numbers;
+    for (const NameParts& each : parts)
+        numbers.push_back(whole_number("0" + each.numbers[changing[0]]).value_or(0));
+    const std::string gaps = gaps_of(numbers);
+    if (!gaps.empty()) {
+        warn(fmt::format(
+            "{}: in the series '{}' the numbers {} are missing: the slices beside a gap "
+            "are neighbours here",
+            name, one_line(text), gaps));
+    }
 }
 
 }  // namespace lamina

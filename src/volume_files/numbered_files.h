@@ -44,4 +44,9 @@ std::optional<std::vector<std::string>> names_of(const FilePattern& pattern, std
 // names: a2 before a10. Returns none if the folder cannot be read.
 std::vector<std::filesystem::path> files_in_folder(const std::filesystem::path& folder);
 
+// Checks that files, in the order of files_in_folder(), are one series whose names differ in one
+// number. Warns of numbers that are missing between the first and the last, and of names without
+// numbers. Throws Error if there are several series, or if two numbers change. `name`: the folder.
+void warn_of_series(const std::string& name, const std::vector<std::filesystem::path>& files);
+
 }  // namespace lamina

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "base/client.h"
 #include "base/enum_words.h"
@@ -20,11 +21,10 @@
 namespace lamina {
 namespace {
 
-constexpr std::int64_t chunk = std::int64_t{1} << 18;  // samples of one task
-
 // Calls part(begin, end) for pieces that make up 0 .. count, on all cores.
 template <typename Part>
 void for_parts(std::int64_t count, const Part& part) {
+    constexpr std::int64_t chunk = std::int64_t{1} << 18;  // samples of one task
     parallel_for((count + chunk - 1) / chunk, 1,
                  [&](std::int64_t i) { part(i * chunk, std::min(count, (i + 1) * chunk)); });
 }
@@ -183,6 +183,34 @@ Volume scaled(const Grid& grid, const StoredSamples& samples) {
 }
 
 }  // namespace
+
+float widened_half(std::uint16_t half) {
+    constexpr int fraction_bits = 10, bias = 15, special = 31;
+    const int exponent = half >> fraction_bits & special, fraction = half & 1023;
+    const int least = 1 - bias - fraction_bits;  // exponent of the smallest number's only bit
+    float value = exponent == 0
+                      ? std::ldexp(static_cast<float>(fraction), least)
+                      : std::ldexp(static_cast<float>(1024 + fraction), exponent - 1 + least);
+    if (exponent == special)
+        value = fraction == 0 ? std::numeric_limits<float>::infinity()
+                              : std::numeric_limits<float>::quiet_NaN();
+    return (half >> 15) != 0 ? -value : value;
+}
+
+StoredSamples widened_halves(const StoredSamples& halves, std::int64_t count) {
+    StoredSamples floats = halves;
+    floats.type = ValueType::float32;
+    floats.bytes = filled_memory(static_cast<std::size_t>(count) * sizeof(float));
+    const auto* const from = static_cast<const std::uint16_t*>(halves.bytes.get());
+    auto* const to = static_cast<float*>(floats.bytes.get());
+    std::vector<float> values(1 << 16);  // of all halves
+    for (std::size_t half = 0; half < values.size(); ++half)
+        values[half] = widened_half(static_cast<std::uint16_t>(half));
+    for_parts(count, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) to[i] = values[from[i]];
+    });
+    return floats;
+}
 
 void swap_bytes(void* words, std::int64_t count, std::size_t word_bytes) {
     if (word_bytes == 1) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,10 @@ struct StoredSamples {
     double scale = 1;  // finite, not 0
     double offset = 0;
 };
+
+// Convert binary16 (IEEE 754), which was read as uint16 in native byte order, to float.
+float widened_half(std::uint16_t half);
+StoredSamples widened_halves(const StoredSamples& halves, std::int64_t count);
 
 // Reverse the bytes of words of 1, 2, 4 or 8 bytes: on all cores, or in this thread alone.
 void swap_bytes(void* words, std::int64_t count, std::size_t word_bytes);

@@ -1,362 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume_files/volume_formats.h"
 
-#include <tiffio.h>
-
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <cstdarg>
-#include <cstdlib>
-#include <cstring>
 #include <glm/vec3.hpp>
 #include <map>
-#include <pugixml.hpp>
-#include <sstream>
+#include <set>
 
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/memory.h"
+#include "volume_files/isolated_process.h"
 #include "volume_files/numbered_files.h"
+#include "volume_files/tiff_description.h"
+#include "volume_files/tiff_file.h"
 
 namespace lamina {
 namespace {
 
 using Path = std::filesystem::path;
-
-// Max bytes that one compressed byte expands to: zstd's longest run, 128 KiB, takes 4 bytes.
-constexpr std::uint64_t most_expansion = 32768;
-constexpr tmsize_t most_memory = tmsize_t{1} << 31;  // bytes that libtiff itself may take at once
-
-struct TiffPage {
-    std::int64_t width = 0, height = 0;
-    std::int64_t samples = 1;  // of each pixel
-    bool planar = false;       // each sample of a pixel in a plane of its own
-    ValueType type = ValueType::uint8;
-
-    bool operator==(const TiffPage&) const = default;
-};
-
-// Copies value number `sample` of every `samples` values, `count` times. `word`: a value's bytes.
-void take_sample(const char* from, std::int64_t samples, std::int64_t sample, std::int64_t count,
-                 std::size_t word, char* to) {
-    const StoredAxis axes[] = {{samples, sample}, count};
-    take_of_memory(from, axes, word, to);
-}
-
-// A TIFF file, read page by page through libtiff. All functions throw Error with libtiff's reason.
-class TiffFile {
-  public:
-    explicit TiffFile(const Path& path) : name_(path.string()), tiff_(nullptr, &TIFFClose) {
-        expect_regular_file(path);
-        file_bytes_ = std::filesystem::file_size(path);
-        const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(
-            TIFFOpenOptionsAlloc(), &TIFFOpenOptionsFree);
-        if (!options) throw std::bad_alloc();
-        TIFFOpenOptionsSetErrorHandlerExtR(options.get(), &keep_message, this);
-        TIFFOpenOptionsSetWarningHandlerExtR(
-            options.get(), [](TIFF*, void*, const char*, const char*, va_list) { return 1; }, this);
-        TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), most_memory);
-        // m: not mapped, because a file that another process shortens would end this one.
-        tiff_.reset(TIFFOpenExt(path.c_str(), "rm", options.get()));
-        if (!tiff_) fail_with_reason("cannot be read as TIFF");
-    }
-
-    const std::string& name() const { return name_; }
-
-    // Moves to the next page; returns false at the end. A file opens at its first page.
-    bool next_page() {
-        message_.clear();
-        if (TIFFReadDirectory(tiff_.get()) == 0) {
-            if (!message_.empty()) fail("{}: page {}: {}", name_, number_ + 2, message_);
-            return false;
-        }
-        ++number_;
-        return true;
-    }
-
-    // Returns the byte of the file at which the page's directory lies.
-    std::uint64_t place() const { return TIFFCurrentDirOffset(tiff_.get()); }
-
-    // Moves to a page. `place`: its place(), because a search by number reads all pages before it.
-    void go_to_page(std::uint32_t number, std::uint64_t place) {
-        number_ = number;
-        message_.clear();
-        if (this->place() != place && TIFFSetSubDirectory(tiff_.get(), place) == 0)
-            fail_with_reason("cannot be read");
-    }
-
-    // Tells if the page is a smaller copy of another, or a mask.
-    bool is_reduced() const {
-        return (field<std::uint32_t>(TIFFTAG_SUBFILETYPE, 0) &
-                (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0;
-    }
-
-    TiffPage page() const {
-        TiffPage page;
-        page.width = field<std::uint32_t>(TIFFTAG_IMAGEWIDTH, 0);
-        page.height = field<std::uint32_t>(TIFFTAG_IMAGELENGTH, 0);
-        page.samples = field<std::uint16_t>(TIFFTAG_SAMPLESPERPIXEL, 1);
-        page.planar =
-            page.samples > 1 && field<std::uint16_t>(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) ==
-                                    PLANARCONFIG_SEPARATE;
-        if (page.width < 1 || page.height < 1 || page.samples < 1) {
-            fail("{}: page {}: found {} x {} pixels of {} samples, expected 1 or more", name_,
-                 number_ + 1, page.width, page.height, page.samples);
-        }
-        const auto bits = field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1);
-        const auto format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);
-        const bool floats = format == SAMPLEFORMAT_IEEEFP, is_signed = format == SAMPLEFORMAT_INT;
-        const bool numbers =
-            floats || is_signed || format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_VOID;
-        const auto type = number_type(bits / 8, !floats, floats || is_signed);
-        if (!numbers || bits % 8 != 0 || !type) {
-            const char* const kind = floats                       ? "floats"
-                                     : format > SAMPLEFORMAT_VOID ? "complex numbers"
-                                                                  : "integers";
-            fail(
-                "{}: page {}: found samples that are {} of {} bits, expected integers of 8, 16, 32 "
-                "or 64 bits, or floats of 32 or 64",
-                name_, number_ + 1, kind, bits);
-        }
-        page.type = *type;
-        return page;
-    }
-
-    std::string description() const {
-        const char* text = nullptr;
-        const bool found = TIFFGetField(tiff_.get(), TIFFTAG_IMAGEDESCRIPTION, &text) != 0;
-        return found && text != nullptr ? text : "";
-    }
-
-    // Returns the most bytes of samples in the file, if all pages are packed like this one.
-    std::uint64_t capacity() const {
-        const bool packed =
-            field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE;
-        return file_bytes_ * (packed ? most_expansion : 1);
-    }
-
-    // Returns the pixels per unit of length, whatever unit, along an axis; 0: unknown.
-    double resolution(int axis) const {
-        float value = 0;
-        TIFFGetField(tiff_.get(), axis == 0 ? TIFFTAG_XRESOLUTION : TIFFTAG_YRESOLUTION, &value);
-        return static_cast<double>(value);
-    }
-
-    // Reads one sample of all pixels, row by row, in native byte order: width * height values.
-    void read(const TiffPage& page, std::int64_t sample, char* to) {
-        check_interrupt();
-        check_capacity(page);
-        message_.clear();
-        if (field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) == PHOTOMETRIC_YCBCR)
-            TIFFSetField(tiff_.get(), TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
-        if (TIFFIsTiled(tiff_.get()) != 0)
-            read_tiles(page, sample, to);
-        else
-            read_strips(page, sample, to);
-    }
-
-  private:
-    void read_strips(const TiffPage& page, std::int64_t sample, char* to) {
-        const std::size_t word = bytes_of(page.type);
-        const std::int64_t together = page.planar ? 1 : page.samples;  // samples beside each other
-        const std::size_t row_bytes = static_cast<std::size_t>(page.width * together) * word;
-        const std::int64_t rows = std::min<std::int64_t>(
-            field<std::uint32_t>(TIFFTAG_ROWSPERSTRIP, 0xffffffff), page.height);
-        if (rows < 1 || TIFFScanlineSize64(tiff_.get()) != row_bytes)
-            fail("{}: page {}: its strips do not hold whole rows", name_, number_ + 1);
-        const std::int64_t strips = (page.height + rows - 1) / rows;
-        std::vector<char> strip(together > 1 ? row_bytes * static_cast<std::size_t>(rows) : 0);
-        for (std::int64_t i = 0; i < strips; ++i) {
-            check_interrupt();
-            const std::int64_t height = std::min(rows, page.height - i * rows);
-            const std::size_t bytes = row_bytes * static_cast<std::size_t>(height);
-            char* const into = together > 1 ? strip.data() : to;
-            const auto number = static_cast<std::uint32_t>(i + (page.planar ? sample * strips : 0));
-            const tmsize_t got =
-                TIFFReadEncodedStrip(tiff_.get(), number, into, static_cast<tmsize_t>(bytes));
-            if (got != static_cast<tmsize_t>(bytes)) fail_with_reason("damaged or truncated");
-            const std::int64_t pixels = page.width * height;
-            if (together > 1) take_sample(strip.data(), together, sample, pixels, word, to);
-            to += static_cast<std::size_t>(pixels) * word;
-        }
-    }
-
-    void read_tiles(const TiffPage& page, std::int64_t sample, char* to) {
-        const std::size_t word = bytes_of(page.type);
-        const std::int64_t together = page.planar ? 1 : page.samples;
-        const std::int64_t width = field<std::uint32_t>(TIFFTAG_TILEWIDTH, 0);
-        const std::int64_t height = field<std::uint32_t>(TIFFTAG_TILELENGTH, 0);
-        const StoredAxis axes[] = {width, height, together};
-        const std::size_t tile_bytes = stored_bytes(name_, axes, word);
-        if (width < 1 || height < 1 || TIFFTileSize64(tiff_.get()) != tile_bytes ||
-            tile_bytes / most_expansion > file_bytes_) {
-            fail("{}: page {}: found tiles of {} x {} pixels, more than the file can hold", name_,
-                 number_ + 1, width, height);
-        }
-        std::vector<char> tile(tile_bytes), plane(together > 1 ? tile_bytes : 0);
-        for (std::int64_t y = 0; y < page.height; y += height) {
-            for (std::int64_t x = 0; x < page.width; x += width) {
-                check_interrupt();
-                const auto number = TIFFComputeTile(
-                    tiff_.get(), static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0,
-                    static_cast<std::uint16_t>(page.planar ? sample : 0));
-                const tmsize_t got = TIFFReadEncodedTile(tiff_.get(), number, tile.data(),
-                                                         static_cast<tmsize_t>(tile_bytes));
-                if (got != static_cast<tmsize_t>(tile_bytes))
-                    fail_with_reason("damaged or truncated");
-                const char* from = tile.data();
-                if (together > 1) {
-                    take_sample(from, together, sample, width * height, word, plane.data());
-                    from = plane.data();
-                }
-                const std::size_t shown =
-                    static_cast<std::size_t>(std::min(width, page.width - x)) * word;
-                for (std::int64_t row = 0; row < std::min(height, page.height - y); ++row) {
-                    std::memcpy(to + static_cast<std::size_t>((y + row) * page.width + x) * word,
-                                from + static_cast<std::size_t>(row * width) * word, shown);
-                }
-            }
-        }
-    }
-
-    // Throws Error if the file is too small for the page, before a damaged one takes all memory.
-    void check_capacity(const TiffPage& page) const {
-        const StoredAxis axes[] = {page.width, page.height, page.samples};
-        const std::size_t bytes = stored_bytes(name_, axes, bytes_of(page.type));
-        if (bytes > capacity()) {
-            fail("{}: page {} promises {} x {} pixels ({} bytes), the file holds {} bytes{}", name_,
-                 number_ + 1, page.width, page.height, bytes, file_bytes_,
-                 capacity() > file_bytes_ ? " of compressed data" : "");
-        }
-    }
-
-    [[noreturn]] void fail_with_reason(const char* doing) const {
-        fail("{}: page {}: {}: {}", name_, number_ + 1, doing,
-             message_.empty() ? "libtiff gives no reason" : message_);
-    }
-
-    template <typename T>
-    T field(ttag_t tag, T otherwise) const {
-        T value = otherwise;
-        return TIFFGetFieldDefaulted(tiff_.get(), tag, &value) != 0 ? value : otherwise;
-    }
-
-    static int keep_message(TIFF*, void* file, const char*, const char* format, va_list arguments) {
-        TiffFile& self = *static_cast<TiffFile*>(file);
-        char text[1000];
-        if (!self.message_.empty() || std::vsnprintf(text, sizeof text, format, arguments) <= 0)
-            return 1;
-        self.message_ = one_line(text);
-        // Some messages begin with the file's name, as lamina's do.
-        const std::string name = self.name_ + ": ";
-        if (self.message_.starts_with(name)) self.message_.erase(0, name.size());
-        return 1;  // handled: libtiff prints nothing
-    }
-
-    std::string name_;
-    std::string message_;  // the first of libtiff since it was cleared
-    std::uint64_t file_bytes_ = 0;
-    std::uint32_t number_ = 0;  // the page's, from 0
-    std::unique_ptr<TIFF, void (*)(TIFF*)> tiff_;
-};
-
-// The meaning of a TIFF stack's pages, as ImageJ or OME wrote it into the first one's description.
-struct TiffAxes {
-    std::int64_t channels = 1, slices = 1, times = 1;
-    // Number of pages from one channel, slice or time to the next.
-    std::int64_t channel_step = 1, slice_step = 1, time_step = 1;
-    glm::dvec3 spacing{1, 1, 1};
-};
-
-bool is_distance(double number) {
-    return std::isfinite(number) && number > 1e-100 && number < 1e100;
-}
-
-// Reads ImageJ's lines "key=value". Pages run through channels first, then slices, then frames.
-TiffAxes imagej_axes(const std::string& text, std::int64_t pages,
-                     const std::array<double, 2>& resolution) {
-    std::map<std::string, std::string> values;
-    std::istringstream stream(text);
-    for (std::string line; std::getline(stream, line);) {
-        const std::size_t equals = line.find('=');
-        if (equals != std::string::npos) values[line.substr(0, equals)] = line.substr(equals + 1);
-    }
-    const auto count = [&](const char* key) {
-        const auto number = whole_number(values[key]);
-        return number && *number > 0 && *number < (std::int64_t{1} << 32) ? *number : 1;
-    };
-    TiffAxes axes;
-    axes.channels = count("channels");
-    axes.slices = count("slices");
-    axes.times = count("frames");
-    if (axes.channels == 1 && axes.slices == 1 && axes.times == 1) axes.slices = pages;
-    axes.slice_step = axes.channels;
-    axes.time_step = axes.channels * axes.slices;
-    for (int axis = 0; axis < 2; ++axis) {
-        const double distance = 1 / resolution[static_cast<std::size_t>(axis)];
-        if (is_distance(distance)) axes.spacing[axis] = distance;
-    }
-    const double distance = std::abs(std::strtod(values["spacing"].c_str(), nullptr));
-    if (is_distance(distance)) axes.spacing.z = distance;
-    return axes;
-}
-
-// Reads the first image of OME's XML. Pages are in its DimensionOrder, fastest first, as in XYZCT.
-TiffAxes ome_axes(const std::string& file, const pugi::xml_node pixels, std::int64_t pages) {
-    TiffAxes axes;
-    axes.slices = pages;
-    const std::string order = pixels.attribute("DimensionOrder").as_string("XYZCT");
-    if (order.size() != 5 || !order.starts_with("XY")) {
-        fail("{}: DimensionOrder: found '{}', expected X, Y and then C, Z and T in some order",
-             file, one_line(order.substr(0, 20)));
-    }
-    std::int64_t step = 1;
-    for (const char letter : order.substr(2)) {
-        const std::string key = std::string("Size") + letter;
-        const std::int64_t size = pixels.attribute(key.c_str()).as_llong(1);
-        if (size < 1 || size > (std::int64_t{1} << 20))
-            fail("{}: {}: found {}, expected a number above 0", file, one_line(key), size);
-        (letter == 'C' ? axes.channels : letter == 'Z' ? axes.slices : axes.times) = size;
-        (letter == 'C'   ? axes.channel_step
-         : letter == 'Z' ? axes.slice_step
-                         : axes.time_step) = step;
-        step *= size;
-    }
-    const char* const keys[] = {"PhysicalSizeX", "PhysicalSizeY", "PhysicalSizeZ"};
-    for (int axis = 0; axis < 3; ++axis) {
-        const double distance = pixels.attribute(keys[axis]).as_double(0);
-        if (is_distance(distance)) axes.spacing[axis] = distance;
-    }
-    return axes;
-}
-
-// Reads a stack's description. `pages`: their number; `resolution`: pixels per unit along x and y,
-// 0 if unknown. Pages that it does not mention are slices, 1 apart. Resolutions are trusted only
-// with ImageJ's description: programs write 72 dots an inch into everything, and no distance
-// between slices. Throws Error if the description has another number of pages.
-TiffAxes tiff_axes(const std::string& file, const std::string& description, std::int64_t pages,
-                   const std::array<double, 2>& resolution) {
-    TiffAxes axes;
-    axes.slices = pages;
-    std::string writer = "ImageJ";
-    if (description.starts_with("ImageJ=")) {
-        axes = imagej_axes(description, pages, resolution);
-    } else if (description.find("<OME") != std::string::npos) {
-        writer = "OME";
-        pugi::xml_document document;
-        document.load_buffer(description.data(), description.size());
-        const pugi::xml_node pixels = document.child("OME").child("Image").child("Pixels");
-        if (pixels) axes = ome_axes(file, pixels, pages);
-    }
-    const std::int64_t expected = axes.channels * axes.slices * axes.times;
-    if (expected != pages) {
-        fail("{}: found {} pages, {}'s description has {} channels, {} slices and {} times", file,
-             pages, writer, axes.channels, axes.slices, axes.times);
-    }
-    return axes;
-}
 
 constexpr std::size_t most_pages = 1'000'000;
 
@@ -366,128 +28,379 @@ bool has_tiff_mark(const Path& path) {
     return magic == "II*\0"sv || magic == "MM\0*"sv || magic == "II+\0"sv || magic == "MM\0+"sv;
 }
 
-// The pages of a TIFF file, or of the TIFF files in a folder, as a volume.
+std::vector<Path> tiff_files_in(const Path& path) {
+    if (!std::filesystem::is_directory(path)) return {path};
+    std::vector<Path> files = files_in_folder(path);
+    std::erase_if(files, [](const Path& file) { return !has_tiff_mark(file); });
+    return files;
+}
+
+// Throws Error unless a file that another one names is allowed and there.
+void expect_named_file(const Path& path, const char* what, const std::string& namer) {
+    expect_allowed(path);
+    if (const char* const reason = why_not_regular(path))
+        fail("{}: {} of {}: {}", path.string(), what, namer, reason);
+}
+
+// Returns OME's XML for a file's description, which may leave it to another file.
+std::string ome_xml(const Path& file, const std::string& description) {
+    const std::string metadata = files_of_ome(description).metadata;
+    if (metadata.empty()) return description;
+    const Path path = file.parent_path() / metadata;
+    expect_named_file(path, "metadata file", file.string());
+    return has_tiff_mark(path) ? TiffFile(path).beginning().description : read_file_bytes(path);
+}
+
+// The pages of a TIFF file, of the TIFF files in a folder, or of an OME data set, as a volume.
 class TiffStack {
   public:
     TiffStack(const Path& path, const VolumeRequest& request)
-        : name_(path.string()), files_(files_of_tiff(path)) {
+        : path_(path), name_(path.string()), files_(tiff_files_in(path)) {
         if (files_.empty()) fail("{}: found no TIFF file in the folder", name_);
-        list_pages();
-        axes_ =
-            tiff_axes(name_, description_, static_cast<std::int64_t>(places_.size()), resolution_);
-        if (axes_.channels > 1 && page_.samples > 1) {
-            fail("{}: found pages for {} channels and {} samples a pixel, expected one of both",
-                 name_, axes_.channels, page_.samples);
+        const TiffBeginning first = beginning();
+        is_colour_ = first.is_colour;
+        if (is_ome(first.description)) {
+            take_ome(first, request.array);
+        } else {
+            if (!request.array.empty())
+                fail("{}: array: expected no such key: the file is no OME-TIFF", name_);
+            take_pages(first);
         }
-        channel_ =
-            taken_axis(name_, "channel", request.channel, std::max(axes_.channels, page_.samples));
-        time_ = taken_axis(name_, "time", request.time, axes_.times);
-        const StoredAxis taken[] = {channel_, time_};
-        say_taken(name_, taken);
+        open(0).go_to(page_);
+        file_->check_tags(!found_.unit.empty() || found_.spacing != glm::dvec3(1));
+        if (is_colour_) say("{}: its pixels are colours, which are read as channels", name_);
+        take_axes(request);
+        list_planes();
     }
 
-    Grid grid() const {
-        Grid grid = plain_grid({page_.width, page_.height, axes_.slices});
-        for (int axis = 0; axis < 3; ++axis)
-            grid.step[static_cast<std::size_t>(axis)] *= axes_.spacing[axis];
-        check_grid(name_, grid, {"resolution", "resolution"});
-        return grid;
-    }
-
-    StoredSamples read() {
-        const StoredAxis sizes[] = {page_.width, page_.height, axes_.slices};
-        const std::size_t word = bytes_of(page_.type);
-        StoredSamples samples{name_, page_.type, nullptr};
-        check_capacity(word);
-        samples.bytes = filled_memory(stored_bytes(name_, sizes, word));
-        auto* to = static_cast<char*>(samples.bytes.get());
-        const bool by_page = axes_.channels > 1;
-        const std::int64_t first =
-            *time_.taken * axes_.time_step + (by_page ? *channel_.taken * axes_.channel_step : 0);
-        for (std::int64_t slice = 0; slice < axes_.slices; ++slice) {
-            const Place& place =
-                places_[static_cast<std::size_t>(first + slice * axes_.slice_step)];
-            open(place.file).go_to_page(place.page, place.offset);
-            file_->read(page_, by_page ? 0 : *channel_.taken, to);
-            to += static_cast<std::size_t>(page_.width * page_.height) * word;
+    Volume volume(const VolumeUse& use) {
+        if (use.contents != nullptr) *use.contents = contents();
+        const std::size_t bytes = stored_bytes(name_, sizes(), bytes_of(type_));
+        StoredSamples samples{name_, type_, nullptr, found_.scale, found_.shift};
+        if (is_behind_) {
+            const StoredData data = data_behind();
+            if (!page_.is_half()) return open_stored(grid(), data, use);
+            expect_room(name_, 2 * bytes, use, "its samples are floats of 16 bits");
+            samples = read_stored(data);
+        } else {
+            expect_room(name_, bytes, use, "TIFF is read as a whole");
+            say_taken(name_, taken_);
+            samples.bytes = decoded(bytes);
         }
-        return samples;
+        const Grid there = grid();
+        return drawn_volume(
+            there, page_.is_half() ? widened_halves(samples, there.sample_count()) : samples);
     }
 
   private:
-    struct Place {
+    using Page = TiffDescription::Page;
+    // An image of a page, and its sample.
+    struct Plane {
         std::size_t file;
-        std::uint32_t page;
-        std::uint64_t offset;  // the page's, in bytes of the file
+        TiffPage page;
+        std::int64_t sample, image;
     };
-
-    // Throws Error unless the files can hold all pages, before memory is taken.
-    void check_capacity(std::size_t word) const {
-        const StoredAxis sizes[] = {page_.width, page_.height, page_.samples, std::ssize(places_)};
-        const std::size_t bytes = stored_bytes(name_, sizes, word);
-        if (bytes <= capacity_) return;
-        fail(
-            "{}: pages: found {} of {} x {} pixels of {} samples ({} bytes), more than the files "
-            "can hold",
-            name_, places_.size(), page_.width, page_.height, page_.samples, bytes);
-    }
 
     TiffFile& open(std::size_t number) {
         if (!file_ || opened_ != number) {
+            if (found_.writer == "OME")
+                expect_named_file(files_[number], "file of the OME data set", name_);
             file_ = std::make_unique<TiffFile>(files_[number]);
             opened_ = number;
         }
         return *file_;
     }
 
-    void list_pages() {
+    // Lists the pages of a file when they are needed.
+    const std::vector<TiffPage>& pages_of(std::size_t number) {
+        const auto [known, is_new] = pages_of_.try_emplace(number);
+        std::vector<TiffPage>& pages = known->second;
+        if (!is_new) return pages;
+        check_interrupt();
+        TiffFile& file = open(number);
+        file.go_to_first();
+        std::uint64_t most = 0;
+        do {
+            if (++listed_ > most_pages) fail("{}: found more than {} pages", name_, most_pages);
+            most = std::max(most, file.capacity());
+            pages.push_back(file.page());
+        } while (file.next_page());
+        capacity_ += most;
+        return pages;
+    }
+
+    // Reads the first page that is no smaller copy.
+    TiffBeginning beginning() {
+        TiffBeginning first;
+        const std::vector<TiffPage>& pages = pages_of(0);
+        const auto full = std::ranges::find_if(pages, [](auto& page) { return !page.is_reduced; });
+        if (full == pages.end()) fail("{}: found no page that is not a smaller copy", name_);
+        page_ = *full;
+        open(0).go_to(page_);
+        first = open(0).beginning();
+        first.pages = std::ranges::count_if(pages, [](auto& page) { return !page.is_reduced; });
+        return first;
+    }
+
+    void take_ome(TiffBeginning first, const std::string& image) {
+        const Path folder = files_[0].parent_path();
+        first.description = ome_xml(files_[0], first.description);
+        const std::string own = files_[0].filename().string();
+        std::size_t counted = 0;  // pages of all other files
+        found_ = ome_description(first, own, image, [&](const std::string& name) {
+            if (name == own) return std::ssize(pages_of(0));
+            expect_allowed(folder / name);
+            TiffFile file(folder / name);
+            std::int64_t count = 1;
+            for (; file.next_page(); ++count) {
+                check_interrupt();
+                if (++counted > most_pages)
+                    fail("{}: found more than {} pages in its files", name_, most_pages);
+            }
+            return count;
+        });
+        const std::vector<Path> there = std::move(files_);
+        files_.clear();
+        for (const std::string& file : found_.files) {
+            files_.push_back(folder / file);
+            std::error_code unknown;
+            if (!std::filesystem::exists(files_.back(), unknown))
+                say("{}: no such file: {} names it, and it has some of the planes",
+                    files_.back().string(), name_);
+        }
+        const std::set<Path> known(files_.begin(), files_.end());
+        for (const Path& file : there) {
+            if (!known.contains(file))
+                fail(
+                    "{}: found several OME data sets, expected one: name one of the files, such as "
+                    "{}",
+                    name_, file.string());
+        }
+        if (!found_.type.empty() && found_.type != page_.type_text() && !page_.is_half())
+            say("{}: Type is {}, the samples of pages are {}, which counts", name_,
+                one_line(found_.type), page_.type_text());
+    }
+
+    void take_pages(const TiffBeginning& first) {
+        warn_of_series(name_, files_);
+        found_ = tiff_description(first);
         std::int64_t reduced = 0;
         for (std::size_t i = 0; i < files_.size(); ++i) {
-            check_interrupt();
-            TiffFile& file = open(i);
-            std::uint32_t number = 0;
-            std::uint64_t capacity = 0;
-            do {
-                capacity = std::max(capacity, file.capacity());
-                if (file.is_reduced())
-                    ++reduced;
-                else
-                    add_page(file, {i, number, file.place()});
-                ++number;
-            } while (file.next_page());
-            capacity_ += capacity;
+            for (const TiffPage& page : pages_of(i)) {
+                reduced += page.is_reduced;
+                if (!page.is_reduced) found_.pages.push_back({static_cast<int>(i), page.number});
+            }
         }
-        if (places_.empty()) fail("{}: found no page that is not a smaller copy", name_);
-        if (reduced > 0)
-            warn(fmt::format("{}: {} smaller copies of pages are not used", name_, reduced));
+        if (reduced > 0) say("{}: {} smaller copies of pages are not used", name_, reduced);
+        if (files_.size() > 1) add_files(first.pages);
+        fit_pages();
     }
 
-    void add_page(const TiffFile& file, const Place& place) {
-        if (places_.size() == most_pages) fail("{}: found more than {} pages", name_, most_pages);
-        const TiffPage page = file.page();
-        if (places_.empty()) {
-            page_ = page;
-            description_ = file.description();
-            resolution_ = {file.resolution(0), file.resolution(1)};
-        } else if (!(page == page_)) {
+    // Takes the files of a folder for slices or, if each has slices, for an axis without a name.
+    void add_files(std::int64_t pages_each) {
+        const auto z = std::ranges::find(found_.axes, 'Z', &TiffAxis::letter);
+        if (found_.writer.empty()) {
+            z->size = page_.depth * std::ssize(found_.pages);
+            return;
+        }
+        if (std::ssize(found_.pages) != pages_each * std::ssize(files_))
+            fail("{}: found {} pages in {} files, expected {} in each, as in the first", name_,
+                 found_.pages.size(), files_.size(), pages_each);
+        const bool has_slices = z != found_.axes.end() && z->size > 1;
+        if (z != found_.axes.end() && !has_slices) found_.axes.erase(z);
+        found_.axes.push_back({has_slices ? '?' : 'Z', std::ssize(files_)});
+    }
+
+    // Throws Error unless there are as many planes as the description has, or one page in front of
+    // them (ImageJ above 4 GB, tifffile's "truncated", images of a page in strips).
+    void fit_pages() {
+        std::vector<StoredAxis> axes;
+        for (const TiffAxis& axis : found_.axes) axes.emplace_back(axis.size);
+        const std::size_t planes = stored_bytes(name_, axes, 1);
+        const auto each = static_cast<std::size_t>(page_.samples * page_.depth);
+        const std::size_t pages = found_.pages.size();
+        is_behind_ = pages == 1 && (planes > each || (page_.depth > 1 && !open(0).is_tiled()));
+        if (is_behind_ || planes == pages * each) return;
+        if (found_.writer == "tifffile" && planes < pages * each && planes % each == 0) {
+            found_.pages.resize(planes / each);
+            say("{}: found {} pages, of which tifffile's description has {}: the others "
+                "are not used",
+                name_, pages, found_.pages.size());
+            return;
+        }
+        const auto size = [&](char letter) {
+            const auto axis = std::ranges::find(found_.axes, letter, &TiffAxis::letter);
+            return axis == found_.axes.end() ? 1 : axis->size;
+        };
+        fail("{}: found {} pages, {}'s description has {} channels, {} slices and {} times", name_,
+             pages, found_.writer, size('C'), size('Z'), size('T'));
+    }
+
+    void take_axes(const VolumeRequest& request) {
+        std::map<std::string_view, int> axes_of;
+        for (const TiffAxis& axis : found_.axes) {
+            if (axis.letter == 'Z') slices_ *= axis.size;
+            taken_.push_back(axis.letter == 'Z' ? StoredAxis(axis.size)
+                             : axis.letter == 'C'
+                                 ? taken_axis(name_, "channel", request.channel, axis.size)
+                             : axis.letter == 'T'
+                                 ? taken_axis(name_, "time", request.time, axis.size)
+                                 : unnamed_axis(name_, request.channel, request.time, axis.size));
+            if (axis.size > 1 && ++axes_of[taken_.back().what] > 1)
+                fail("{}: found two axes of {}s, expected one", name_,
+                     axis.letter == 'Z' ? "slice" : taken_.back().what);
+        }
+        if (axes_of["channel"] == 0) taken_axis(name_, "channel", request.channel, 1);
+        if (axes_of["time"] == 0) taken_axis(name_, "time", request.time, 1);
+    }
+
+    // Finds the plane of each slice. Planes are numbered as their axes run, in each page samples
+    // before images.
+    void list_planes() {
+        type_ = page_.type(name_);
+        if (is_behind_) return;
+        for (std::int64_t slice = 0; slice < slices_; ++slice) {
+            std::int64_t number = 0, step = 1;
+            for (const StoredAxis& axis : taken_) {
+                number += step * axis.taken.value_or(axis.size == slices_ ? slice : 0);
+                step *= axis.size;
+            }
+            const std::int64_t each = page_.samples * page_.depth;
+            const Page& at = found_.pages[static_cast<std::size_t>(number / each)];
+            if (at.file < 0)
+                fail(
+                    "{}: slice {} of channel {}, time {} has no page: TiffData does not mention it",
+                    name_, slice, taken_index("channel"), taken_index("time"));
+            const auto file = static_cast<std::size_t>(at.file);
+            const std::vector<TiffPage>& pages = pages_of(file);
+            if (at.number >= pages.size())
+                fail("{}: IFD: found {}, expected up to {}: {} has {} pages", name_, at.number,
+                     pages.size() - 1, files_[file].string(), pages.size());
+            const TiffPage& page = pages[at.number];
+            if (slice == 0 && found_.writer == "OME") {
+                const bool fits = found_.size == std::array{page.width, page.height} &&
+                                  page.samples == page_.samples && page.depth == page_.depth;
+                if (!fits)
+                    fail(
+                        "{}: found pages of {} x {} pixels of {} samples, expected OME's SizeX and "
+                        "SizeY, {} x {}, of {}",
+                        name_, page.width, page.height, page.samples, found_.size[0],
+                        found_.size[1], page_.samples);
+                page_ = page;
+                type_ = page.type(name_);
+            }
+            if (!page.is_like(page_))
+                fail(
+                    "{}: page {}: found {} x {} pixels of {} {} samples, expected {} x {} of {} {} "
+                    "as on the first page",
+                    files_[file].string(), page.number + 1, page.width, page.height, page.samples,
+                    page.type_text(), page_.width, page_.height, page_.samples, page_.type_text());
+            planes_.push_back(
+                {file, page, number % page_.samples, number / page_.samples % page_.depth});
+        }
+        check_capacity();
+    }
+
+    std::int64_t taken_index(std::string_view what) const {
+        const auto axis = std::ranges::find(taken_, what, &StoredAxis::what);
+        return axis == taken_.end() ? 0 : axis->taken.value_or(0);
+    }
+
+    // Throws Error unless the files can hold all pages, before memory is taken.
+    void check_capacity() const {
+        std::int64_t pages = 0;
+        for (std::size_t i = 0; i < planes_.size(); ++i)
+            pages += i == 0 || planes_[i].file != planes_[i - 1].file ||
+                     planes_[i].page.number != planes_[i - 1].page.number;
+        const StoredAxis sizes[] = {page_.width, page_.height, page_.samples, page_.depth, pages};
+        const std::size_t bytes = stored_bytes(name_, sizes, bytes_of(type_));
+        if (bytes <= capacity_) return;
+        fail(
+            "{}: pages: found {} of {} x {} pixels of {} samples ({} bytes), more than the files "
+            "can hold",
+            name_, pages, page_.width, page_.height, page_.samples, bytes);
+    }
+
+    std::array<StoredAxis, 3> sizes() const { return {page_.width, page_.height, slices_}; }
+
+    Grid grid() const {
+        Grid grid = plain_grid({page_.width, page_.height, slices_});
+        for (int axis = 0; axis < 3; ++axis)
+            grid.step[static_cast<std::size_t>(axis)] *= found_.spacing[axis];
+        grid.origin = found_.origin;
+        grid.unit = unit_word(found_.unit);
+        check_grid(name_, grid, {"resolution", "resolution"});
+        return grid;
+    }
+
+    VolumeContents contents() const {
+        VolumeContents contents;
+        contents.arrays = found_.images;
+        contents.is_colour = is_colour_;
+        for (std::size_t i = 0; i < taken_.size(); ++i) {
+            if (!taken_[i].taken || taken_[i].size == 1) continue;
+            const bool is_channel = std::string_view(taken_[i].what) == "channel";
+            std::vector<std::string>& names = is_channel ? contents.channels : contents.times;
+            names = found_.axes[i].names;
+            if (is_channel && is_colour_ && names.empty())
+                names = {"red", "green", "blue", "alpha"};
+            names.resize(static_cast<std::size_t>(taken_[i].size));
+        }
+        return contents;
+    }
+
+    // Decodes the planes, whose samples take `bytes` bytes.
+    std::shared_ptr<void> decoded(std::size_t bytes) {
+        file_.reset();  // both processes would move its place
+        const std::size_t plane = bytes / planes_.size();
+        return isolated_bytes(name_, "libtiff", bytes,
+                              bytes * static_cast<std::size_t>(page_.samples), [&](char* to) {
+                                  for (const Plane& each : planes_) {
+                                      open(each.file).go_to(each.page);
+                                      file_->read(each.page, each.sample, each.image, to);
+                                      to += plane;
+                                  }
+                              });
+    }
+
+    // Describes planes that lie behind the first page's header, one after another.
+    StoredData data_behind() {
+        open(0).go_to(page_);
+        const auto begin = file_->raw_samples();
+        if (!begin)
             fail(
-                "{}: page {}: found {} x {} pixels of {} {} samples, expected {} x {} of {} {} as "
-                "on the first page",
-                file.name(), place.page + 1, page.width, page.height, page.samples,
-                name_of(page.type), page_.width, page_.height, page_.samples, name_of(page_.type));
-        }
-        places_.push_back(place);
+                "{}: found 1 page of several planes, whose samples are not in one piece and "
+                "uncompressed, expected a page for each plane",
+                name_);
+        StoredData data;
+        data.path = path_;
+        data.teller = "the description";
+        data.type = type_;
+        data.axes = taken_;
+        const bool together = page_.samples > 1 && !page_.planar;
+        const StoredAxis plane[] = {page_.width, page_.height};
+        data.axes.insert(data.axes.begin() + together, std::begin(plane), std::end(plane));
+        set_byte_order(data, file_->is_big_endian());
+        data.files = {files_[0]};
+        data.byte_skip = *begin;
+        data.scale = found_.scale;
+        data.shift = found_.shift;
+        return data;
     }
 
+    Path path_;
     std::string name_;
     std::vector<Path> files_;
-    std::vector<Place> places_;
-    TiffPage page_;  // the same for all pages
-    std::string description_;
-    std::array<double, 2> resolution_{};
-    std::uint64_t capacity_ = 0;  // bytes of samples that all files can hold
-    TiffAxes axes_;
-    StoredAxis channel_, time_;
+    std::map<std::size_t, std::vector<TiffPage>> pages_of_;  // by the file's number
+    std::size_t listed_ = 0;
+    std::uint64_t capacity_ = 0;  // bytes of samples that the listed files can hold
+    TiffPage page_;               // which all that are used are like
+    ValueType type_ = ValueType::uint8;
+    TiffDescription found_;
+    bool is_colour_ = false, is_behind_ = false;
+    std::vector<StoredAxis> taken_;  // those of `found_`
+    std::int64_t slices_ = 1;
+    std::vector<Plane> planes_;  // of the slices
     std::unique_ptr<TiffFile> file_;
     std::size_t opened_ = 0;
 };
@@ -499,15 +412,21 @@ bool is_tiff(const Path& path) {
     return std::ranges::any_of(files_in_folder(path), has_tiff_mark);
 }
 
-Volume open_tiff(const Path& path, const VolumeRequest& request, const VolumeUse& /*use*/) {
-    TiffStack stack(path, request);
-    return drawn_volume(stack.grid(), stack.read());
+Volume open_tiff(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
+    return TiffStack(path, request).volume(use);
 }
 
 std::vector<Path> files_of_tiff(const Path& path) {
-    if (!std::filesystem::is_directory(path)) return {path};
-    std::vector<Path> files = files_in_folder(path);
-    std::erase_if(files, [](const Path& file) { return !has_tiff_mark(file); });
+    std::vector<Path> files = tiff_files_in(path);
+    if (files.empty()) return files;
+    const std::string description = TiffFile(files[0]).beginning().description;
+    if (!is_ome(description)) return files;
+    const Path folder = files[0].parent_path();
+    OmeFiles named = files_of_ome(ome_xml(files[0], description));
+    named.planes.insert(files_of_ome(description).metadata);
+    named.planes.erase("");
+    for (const std::string& name : named.planes)
+        if (std::ranges::find(files, folder / name) == files.end()) files.push_back(folder / name);
     return files;
 }
 

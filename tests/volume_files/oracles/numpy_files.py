@@ -31,8 +31,84 @@ def numpy_files(cases):
             kind = {"float32": "float", "float64": "double"}.get(name, name)
             cases.add(file, array, steps=np.diag([.5, 1.5, 2]), origin=(1, 2, 3),
                       raw=[7, 4, 3, kind, 7, order == ">"], spacing=[.5, 1.5, 2], where=[1, 2, 3])
+    unnamed_axes(cases)
+    archives(cases)
     # Headers as ITK's writer makes them, which is not here; data by NumPy.
     metaimage_files(cases)
+
+
+def unnamed_axes(cases):
+    """Axes of arrays have no names: [n, z, y, x], where 2 to 4 are channels and more are times; n behind x if that fits."""
+    half = values_of("float32", (4, 5, 6), seed=11).astype(np.float16)
+    half.flat[4:10] = [65504, -65504, 6e-8, -6e-5, np.inf, -0.]  # largest, subnormal, normal, special
+    for order in "<>":
+        for fortran in (False, True):
+            file = f"half{'le' if order == '<' else 'be'}{'f' if fortran else 'c'}.npy"
+            stored = half.astype(half.dtype.newbyteorder(order))
+            np.save(cases.path(file), np.asfortranarray(stored) if fortran else stored)
+            cases.add(file, half.astype(np.float32))
+    for fortran in (False, True):
+        order = np.asfortranarray if fortran else np.ascontiguousarray
+        letter = "f" if fortran else "c"
+        few, many = values_of("uint16", (3, 4, 5, 6), seed=12), values_of("int16", (7, 4, 5, 6), seed=13)
+        last, five = values_of("uint8", (7, 5, 6, 3), seed=14), values_of("uint8", (2, 3, 4, 5, 6), seed=15)
+        for name, array in (("few", few), ("many", many), ("last", last), ("five", five)):
+            np.save(cases.path(f"{name}_{letter}4.npy"), order(array))
+        cases.add(f"few_{letter}4.npy", few[0], warnings=["the axis of 3 has no name and is taken for channels"])
+        cases.add(f"few_{letter}4.npy", few[2], channel=2)
+        cases.add(f"few_{letter}4.npy", few[1], time=1)
+        cases.add(f"many_{letter}4.npy", many[0], warnings=["the axis of 7 has no name and is taken for times"])
+        cases.add(f"many_{letter}4.npy", many[6], time=6)
+        cases.add(f"many_{letter}4.npy", many[6], channel=6)
+        cases.add(f"last_{letter}4.npy", last[..., 0], warnings=["taken for z, y, x and channel, because the last has 3"])
+        cases.add(f"last_{letter}4.npy", last[..., 2], channel=2)
+        cases.add(f"five_{letter}4.npy", five[0, 0], warnings=["taken for time, channel, z, y and x"])
+        cases.add(f"five_{letter}4.npy", five[1, 2], time=1, channel=2)
+    cases.refuse("few_c4.npy", "channel: found 3, expected a whole number from 0 to 2", channel=3)
+    for name, array, found in (("complex", np.zeros((2, 3, 4), "c8"), "'<c8'"), ("six", np.zeros((1,) * 6), "(1, 1, 1"),
+                               ("object", np.array([[[None, 1]]], dtype=object), "'|O'")):
+        np.save(cases.path(f"{name}.npy"), array, allow_pickle=True)
+        cases.refuse(f"{name}.npy", "found " + found)
+
+
+def archives(cases):
+    """.npz: stored and deflated members, one array or several, damaged ones."""
+    import zipfile
+    a, b = values_of("float32", (4, 5, 6), seed=21), values_of("uint16", (3, 4, 5, 6), seed=22)
+    for save, file in ((np.savez, "stored.npz"), (np.savez_compressed, "packed.npz")):
+        save(cases.path(file), a=a, b=np.asfortranarray(b), spacing=[.5, 1, 2], half=a.astype(np.float16), big=a.astype(">f4"))
+        cases.add(file, a, warnings=['array "a" of "a", "b", "big", "half", "spacing" is taken'])
+        cases.add(file, a, array="big")
+        cases.add(file, b[1], array="b", channel=1)
+        cases.add(file, a.astype(np.float16).astype(np.float32), array="half.npy")
+        cases.refuse(file, 'array: found "c", expected one of "a", "b", "big", "half", "spacing"', array="c")
+        cases.refuse(file, "spacing.npy: NPY header, 'shape': found (3,)", array="spacing")
+        with open(cases.path(file), "rb") as stored:
+            data = bytearray(stored.read())
+        data[300] ^= 16  # in the samples of "a"
+        with open(cases.path("damaged_" + file), "wb") as out:
+            out.write(data)
+        cases.refuse("damaged_" + file, "a.npy: damaged", array="a")
+        with open(cases.path("cut_" + file), "wb") as out:
+            out.write(data[:-100])
+        cases.refuse("cut_" + file, "damaged or truncated ZIP archive")
+    with zipfile.ZipFile(cases.path("wide.npz"), "w", zipfile.ZIP_DEFLATED) as out:
+        with out.open("x.npy", "w", force_zip64=True) as member:
+            np.lib.format.write_array(member, b)
+    cases.add("wide.npz", b[2], channel=2)
+    for method, label in ((zipfile.ZIP_BZIP2, "method 12"), (zipfile.ZIP_LZMA, "method 14")):
+        with zipfile.ZipFile(cases.path(f"code{method}.npz"), "w", method) as out:
+            out.write(cases.path("few_c4.npy"), "x.npy")
+        cases.refuse(f"code{method}.npz", "x.npy: compressed by ZIP's " + label)
+    with open(cases.path("stored.npz"), "rb") as stored:
+        data = bytearray(stored.read())
+    at = data.find(b"PK\1\2")
+    data[at + 8] |= 1
+    with open(cases.path("secret.npz"), "wb") as out:
+        out.write(data)
+    cases.refuse("secret.npz", "a.npy: encrypted", array="a")
+    np.savez(cases.path("flat.npz"), a=np.zeros((3, 4)))
+    cases.refuse("flat.npz", "found no array of three axes or more")
 
 
 def metaimage_files(cases):

@@ -6,6 +6,8 @@ import sys
 import numpy as np
 
 from .cases import TYPES, values_of
+from .picture_files import picture_files
+from .tiff_kinds import tiff_kinds
 
 
 def tifffile_files(cases):
@@ -62,7 +64,9 @@ def tifffile_files(cases):
     with open(cases.path("folder/notes.txt"), "w", encoding="ascii") as out:
         out.write("not a slice")
     cases.add("folder", pages)
+    tiff_kinds(cases)
     pillow_files(cases)
+    picture_files(cases)
 
 
 def pillow_files(cases):
