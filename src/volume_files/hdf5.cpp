@@ -14,6 +14,8 @@
 #include "base/content_hash.h"
 #include "base/error.h"
 #include "base/input_file.h"
+#include "base/json_text.h"
+#include "volume_files/array_path.h"
 #include "volume_files/hdf5_volume.h"
 #include "volume_files/isolated_process.h"
 #include "volume_files/sample_sources.h"
@@ -33,8 +35,25 @@ struct Question {
     bool is_all;
 };
 
+constexpr std::size_t most_text = 1 << 24;  // bytes of names that a process may send
+
 std::size_t bytes_in(const SampleBox& box, ValueType type) {
     return static_cast<std::size_t>(box.count()) * bytes_of(type);
+}
+
+// Sends a text from an isolated process; received() returns it.
+void answer_text(IsolatedLine& line, const std::string& text) {
+    const std::size_t bytes = text.size();
+    line.answer(&bytes, sizeof bytes);
+    line.answer(text.data(), bytes);
+}
+
+std::string received(IsolatedProcess& process) {
+    std::size_t bytes = 0;
+    process.receive(&bytes, sizeof bytes);
+    std::string text(std::min(bytes, most_text), '\0');
+    process.receive(text.data(), text.size());
+    return text;
 }
 
 // An isolated process that reads an HDF5 file with libhdf5. For one thread at a time.
@@ -43,13 +62,13 @@ class Hdf5Process {
     // Starts the process and receives the head of its volume. Throws Error.
     explicit Hdf5Process(const Hdf5Place& place)
         : process_(place.file, "libhdf5", [&](IsolatedLine& line) { serve(line, place); }) {
-        process_.receive(&head_, sizeof head_);
+        head_ = Hdf5Head::of(received(process_));
     }
 
     const Hdf5Head& head() const { return head_; }
     // Returns all samples. read() must not be called then, because it would overwrite their memory.
     std::shared_ptr<void> read_all() {
-        read_shared({{0, 0, 0}, head_.grid.size}, true);
+        read_shared({{0, 0, 0}, head_.place.grid.size}, true);
         return shared_.memory;
     }
 
@@ -77,7 +96,7 @@ class Hdf5Process {
     // Answers questions in the isolated process until no more come.
     static void serve(IsolatedLine& line, const Hdf5Place& place) {
         const Hdf5Volume volume(place.file, place.array, place.request);
-        line.answer(&volume.head(), sizeof(Hdf5Head));
+        answer_text(line, volume.head().bytes());
         Shared shared;
         for (Question question; line.next(&question, sizeof question);) {
             const std::size_t bytes = bytes_in(question.box, volume.head().type);
@@ -109,7 +128,7 @@ std::array<std::int64_t, 3> edge_of(const Hdf5Head& head) {
     std::array<std::int64_t, 3> edge{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::int64_t chunk = std::max<std::int64_t>(head.chunk[axis], 1);
-        edge[axis] = std::min((least_edge + chunk - 1) / chunk * chunk, head.grid.size[axis]);
+        edge[axis] = std::min((least_edge + chunk - 1) / chunk * chunk, head.place.grid.size[axis]);
     }
     return edge;
 }
@@ -119,17 +138,19 @@ std::array<std::int64_t, 3> edge_of(const Hdf5Head& head) {
 class Hdf5Source : public ChunkedSource {
   public:
     Hdf5Source(const Hdf5Place& place, std::unique_ptr<Hdf5Process> first)
-        : ChunkedSource(first->head().grid.size, edge_of(first->head()),
+        : ChunkedSource(first->head().place.grid.size, edge_of(first->head()),
                         bytes_of(first->head().type)),
           place_(place),
-          file_(FileState::of(place.file)),
           head_(first->head()) {
+        for (const std::string& file : head_.files) files_.push_back(FileState::of(file));
         idle_.push_back(std::move(first));
         const unsigned count = std::min(most_processes, std::thread::hardware_concurrency());
         while (idle_.size() < count) idle_.push_back(started());
     }
 
-    void check_unchanged() const override { file_.check_unchanged(); }
+    void check_unchanged() const override {
+        for (const FileState& file : files_) file.check_unchanged();
+    }
 
     // Returns the file's name with the array's appended: each array has an index of its own.
     std::filesystem::path main_file() const override {
@@ -140,15 +161,17 @@ class Hdf5Source : public ChunkedSource {
 
     std::string name() const override {
         return fmt::format("{} {} {} {}", std::filesystem::absolute(place_.file).string(),
-                           place_.array, fmt::join(head_.taken, " "),
-                           fmt::join(head_.grid.size, " "));
+                           place_.array, fmt::join(head_.place.index, " "),
+                           fmt::join(head_.place.grid.size, " "));
     }
 
     std::string identity() const override {
         ContentHash hash;
         hash.add(name());
-        hash.add(file_.text());
-        hash.add(file_.bytes_hash());
+        for (const FileState& file : files_) {
+            hash.add(file.text());
+            hash.add(file.bytes_hash());
+        }
         return hash.hex();
     }
 
@@ -173,9 +196,9 @@ class Hdf5Source : public ChunkedSource {
         const ClientScope scope(client);
         auto process = std::make_unique<Hdf5Process>(place_);
         const Hdf5Head& head = process->head();
-        file_.check_unchanged();
-        if (head.grid.size != head_.grid.size || head.type != head_.type ||
-            head.taken != head_.taken)
+        check_unchanged();
+        if (head.place.grid.size != head_.place.grid.size || head.type != head_.type ||
+            head.place.index != head_.place.index)
             fail("{}: the file was changed while it was read", place_.file);
         return process;
     }
@@ -207,7 +230,7 @@ class Hdf5Source : public ChunkedSource {
     static constexpr unsigned most_processes = 16;
 
     Hdf5Place place_;
-    FileState file_;
+    std::vector<FileState> files_;
     Hdf5Head head_;
     mutable std::mutex access_;
     mutable std::condition_variable given_back_;
@@ -215,32 +238,20 @@ class Hdf5Source : public ChunkedSource {
     mutable unsigned lost_ = 0;  // processes that are to be replaced by new ones
 };
 
-// The file and the array ("/PATH") of a path "FILE.h5:/PATH". `array` is empty for a plain file.
-struct ArrayPath {
-    std::filesystem::path file;
-    std::string array;
-};
-
-ArrayPath array_path(const std::filesystem::path& path) {
-    std::error_code unreadable;
-    if (std::filesystem::exists(path, unreadable)) return {path, ""};
-    const std::string text = path.string();
-    for (std::size_t at = text.find(":/"); at != std::string::npos; at = text.find(":/", at + 1)) {
-        const std::filesystem::path file = text.substr(0, at);
-        if (std::filesystem::is_regular_file(file, unreadable)) return {file, text.substr(at + 1)};
-    }
-    return {path, ""};
-}
-
 // Describes where an array's samples lie in its file, if the head says it (Hdf5Head::raw).
 StoredData raw_data(const std::filesystem::path& file, const Hdf5Head& head) {
     StoredData data;
     data.path = file;
     data.teller = "the array";
     data.type = head.type;
-    for (const std::int64_t size : head.grid.size) data.axes.emplace_back(size);
-    for (std::size_t i = 0; i < 2; ++i)
-        if (head.outer[i] > 1) data.axes.emplace_back(head.outer[i], head.taken[i], "", true);
+    const auto& axes = head.place.axes;
+    for (std::size_t i = head.shape.size(); i-- > 0;) {
+        if (std::ranges::find(axes, static_cast<int>(i)) != axes.end())
+            data.axes.emplace_back(head.shape[i]);
+        else
+            data.axes.emplace_back(head.shape[i], head.place.index[i], "", true);
+    }
+    if (axes[2] < 0) data.axes.emplace_back(1);
     set_byte_order(data, head.raw.big_endian);
     data.files = {file};
     data.offset = head.raw.offset;
@@ -248,19 +259,6 @@ StoredData raw_data(const std::filesystem::path& file, const Hdf5Head& head) {
 }
 
 }  // namespace
-
-bool is_hdf5(const std::filesystem::path& path) {
-    constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
-    const std::filesystem::path file = array_path(path).file;
-    std::error_code unreadable;
-    if (std::filesystem::is_directory(file, unreadable)) return false;
-    const std::string beginning = file_beginning(file, 2048 + signature.size());
-    for (const std::size_t at : {0, 512, 1024, 2048}) {
-        if (beginning.size() > at && std::string_view(beginning).substr(at).starts_with(signature))
-            return true;
-    }
-    return false;
-}
 
 Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use) {
@@ -272,27 +270,35 @@ Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request
     const Hdf5Head& head = process->head();
     const auto type = drawn_type(head.type);
     const bool is_scaled = head.scale != 1 || head.offset != 0;
-    if (!type || is_scaled || head.elsewhere) {
+    if (use.contents != nullptr) *use.contents = head.contents;
+    if (!type || is_scaled) {
         std::string why = fmt::format("its samples are of type {}", name_of(head.type));
         if (is_scaled) why = "its samples are scaled";
-        if (head.elsewhere) why = "its samples lie in another file";
-        expect_room(path.string(),
-                    static_cast<std::uint64_t>(head.grid.sample_count()) * bytes_of(head.type), use,
-                    why);
-    } else if (stays_in_files(head.grid, *type, use)) {
-        if (head.raw.offset < 0 || head.has_missing)
-            return stored_volume(head.grid, *type,
+        expect_room(
+            path.string(),
+            static_cast<std::uint64_t>(head.place.grid.sample_count()) * bytes_of(head.type), use,
+            why);
+    } else if (stays_in_files(head.place.grid, *type, use)) {
+        if (head.raw.offset < 0)
+            return stored_volume(head.place.grid, *type,
                                  std::make_unique<Hdf5Source>(place, std::move(process)));
         return stored_volume(
-            head.grid, *type,
-            std::make_unique<FileSource>(raw_data(named.file, head), head.grid.size));
+            head.place.grid, *type,
+            std::make_unique<FileSource>(raw_data(named.file, head), head.place.grid.size));
     }
-    return drawn_volume(head.grid,
+    return drawn_volume(head.place.grid,
                         {path.string(), head.type, process->read_all(), head.scale, head.offset});
 }
 
 std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& path) {
-    return {array_path(path).file};
+    const ArrayPath named = array_path(path);
+    IsolatedProcess process(named.file.string(), "libhdf5", [&](IsolatedLine& line) {
+        Hdf5Files files(named.file.string());
+        files.find_files(named.array);
+        answer_text(line, json_text(nlohmann::json(files.paths())));
+    });
+    const auto paths = parse_json(received(process)).get<std::vector<std::string>>();
+    return {paths.begin(), paths.end()};
 }
 
 }  // namespace lamina

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/value_type.h"
+#include "lamina/volume.h"
+#include "volume_files/volume_opening.h"
+
+namespace lamina {
+
+// An axis of an array of HDF5 or NetCDF, as the file describes it.
+struct ArrayAxis {
+    std::int64_t size = 1;
+    std::string name;                 // empty: the file does not name it
+    std::vector<std::string> kinds;   // other words for what it is, such as a "standard_name"
+    std::string unit;                 // its coordinates' unit
+    std::vector<double> coordinates;  // one a sample, or none
+};
+
+// An array as the file describes it. `steps` and `firsts` are for the axes in space, in the array's
+// order: the distance of samples and the place of the first one; one number is for all; empty: 1
+// and 0.
+struct DescribedArray {
+    std::string name;  // file and array, for messages
+    std::vector<ArrayAxis> axes;
+    std::vector<double> steps, firsts;
+    std::string unit;         // of steps and firsts
+    std::string coordinates;  // the attribute with names of coordinates that several axes share
+};
+
+// Adds what attributes of an axis's coordinates say (CF conventions, sections 4 and 4.1 to 4.4).
+// `text` returns an attribute, or nothing.
+void add_attributes(ArrayAxis& axis, const std::function<std::string(const char* key)>& text);
+
+// Tells how a volume lies in an array.
+struct ArrayPlace {
+    std::array<int, 3> axes{-1, -1, -1};  // the array's axes along x, y and z; -1: none, one sample
+    std::vector<std::int64_t> index;      // on each axis of the array; those in `axes` do not count
+    Grid grid;
+
+    // Tells if the array's axes along x, y and z are its fastest, next and slowest one.
+    bool is_in_order() const;
+};
+
+// Tells if the last of four axes that a file does not name counts channels: it has 2 to 4 entries,
+// the first has not, and the request names no time. Says so. Else the first is the one that
+// unnamed_axis() takes. `file`: for messages.
+bool ends_with_channels(const std::string& file, const std::vector<std::int64_t>& shape,
+                        const VolumeRequest& request);
+
+// Finds x, y, z, channel and time by the names and attributes of axes (CF conventions, section 4),
+// else by their order, z y x with times and channels before them; takes channel and time of the
+// request; places the samples. Fills `contents`. Says what it had to assume. Throws Error.
+ArrayPlace place_array(const DescribedArray& array, const VolumeRequest& request,
+                       VolumeContents& contents);
+
+// Copies samples of an array's box, whose axes have `counts` samples each, the last one fastest, so
+// that x is fastest, then y, then z. `index` is taken on the axes that are not in space.
+void copy_in_order(ValueType type, const std::array<int, 3>& axes,
+                   const std::vector<std::int64_t>& counts, const std::vector<std::int64_t>& index,
+                   const void* from, void* to);
+
+// Returns names of arrays as messages list them, and the only one. Throws Error if there is not
+// one. `file`: for messages.
+std::string names_text(const std::vector<std::string>& arrays);
+std::string only_array(const std::vector<std::string>& arrays, const std::string& file);
+
+}  // namespace lamina

@@ -1,0 +1,556 @@
+# SPDX-License-Identifier: Apache-2.0
+"""HDF5 files as ilastik, Imaris, BigDataViewer, ITK, xarray, NeXus, MATLAB, PyTables and VTK write them, by h5py; and
+classic NetCDF, by SciPy (CDF-1, CDF-2) and by its specification (CDF-5)."""
+import json
+import os
+import struct
+
+import numpy as np
+
+from .cases import rotation
+
+SHAPE = (4, 5, 6)  # z, y, x
+
+
+def ramp(dtype="<i2", shape=SHAPE):
+    """Samples that all differ, and differ from those of any other order of axes."""
+    return (np.arange(np.prod(shape)).reshape(shape) * 7 % 997).astype(dtype)
+
+
+def diagonal(x, y, z):
+    return np.diag([x, y, z]).astype(float)
+
+
+def hdf5_files(cases):
+    import h5py
+
+    def add(file, stored, steps=None, origin=(0, 0, 0), unit="", contents=None, **more):
+        cases.add(file, stored, np.eye(3) if steps is None else steps, origin, **more)
+        cases.cases[-1].update({"unit": unit, "contents": contents or {}})
+
+    def bad(file, *words, **request):
+        cases.cases.append({"file": file, "request": request, "error": list(words)})
+
+    def write(file, array, attributes=None, name="v", **how):
+        with h5py.File(cases.path(file), "w") as out:
+            data = out.create_dataset(name, data=array, **how)
+            for key, value in (attributes or {}).items():
+                data.attrs[key] = value
+
+    for part in (labels, lengths, packed, others, imaris, big_data_viewer, vtk_images, itk, linked, refused):
+        part(h5py, cases, write, add, bad)
+    classic(cases, add, bad)
+
+
+def labels(h5py, cases, write, add, bad):
+    """Every order of labelled axes gives the same volume; channels and times are where the labels say."""
+    array = ramp()
+
+    def tags(word, resolution=0):
+        return json.dumps({"axes": [{"key": letter, "typeFlags": 2, "resolution": resolution, "description": ""}
+                                    for letter in word]})
+    for word in ("zyx", "xyz", "yzx", "zxy", "xzy", "yxz"):
+        turned = np.transpose(array, ["zyx".index(letter) for letter in word])
+        write(f"tags_{word}.h5", turned, {"axistags": tags(word, .5)}, chunks=(2, 3, 2))
+        add(f"tags_{word}.h5", array, diagonal(.5, .5, .5))
+        write(f"names_{word}.h5", turned, {"_ARRAY_DIMENSIONS": list(word.upper())})
+        add(f"names_{word}.h5", array)
+        write(f"axes_{word}.h5", turned, {"axes": word})
+        add(f"axes_{word}.h5", array)
+        with h5py.File(cases.path(f"labels_{word}.h5"), "w") as file:
+            file["v"] = turned
+            for axis, letter in enumerate(word):
+                file["v"].dims[axis].label = letter
+        add(f"labels_{word}.h5", array)
+    partly = json.loads(tags("zyx"))
+    for axis, resolution in zip(partly["axes"], (0, .7, .9)):
+        axis["resolution"] = resolution
+    write("tags_partly.h5", array, {"axistags": json.dumps(partly)})
+    add("tags_partly.h5", array, diagonal(.9, .7, 1), warnings=["axistags: the resolution 0 of z is unknown: 1 is taken"])
+    five = ramp("<u2", (2, 4, 5, 6, 3))  # t z y x c
+    for word in ("tzyxc", "xyzct", "tczyx", "cxtzy"):
+        write(f"five_{word}.h5", np.transpose(five, ["tzyxc".index(letter) for letter in word]),
+              {"axistags": tags(word)})
+        add(f"five_{word}.h5", five[1, ..., 2], time=1, channel=2, contents={"channels": ["", "", ""],
+                                                                              "times": ["", ""]})
+        add(f"five_{word}.h5", five[0, ..., 1], channel=1, warnings=["time 0 of 2 is taken"])
+    write("last.h5", array[..., None], {"axistags": tags("zyxc")})
+    add("last.h5", array)
+    write("component.h5", array[..., None])
+    add("component.h5", array)
+    write("unnamed.h5", ramp("<u2", (3, *SHAPE)))
+    add("unnamed.h5", ramp("<u2", (3, *SHAPE))[0], warnings=["the axis of 3 has no name and is taken for channels"])
+    add("unnamed.h5", ramp("<u2", (3, *SHAPE))[2], channel=2)
+    add("unnamed.h5", ramp("<u2", (3, *SHAPE))[1], time=1)
+    write("many.h5", ramp("<u2", (7, *SHAPE)))
+    add("many.h5", ramp("<u2", (7, *SHAPE))[0], warnings=["the axis of 7 has no name and is taken for times"])
+    # "height" is y in images, z in the atmosphere.
+    movie = ramp("<u2", (7, 5, 6))
+    for word in ("time", "frame", "batch"):
+        write(f"{word}.h5", movie, {"_ARRAY_DIMENSIONS": [word, "height", "width"]})
+        add(f"{word}.h5", movie[3:4], time=3)
+        add(f"{word}.h5", movie[:1], warnings=["time 0 of 7 is taken"])
+    picture = ramp("<u2", (5, 6, 3))
+    write("picture.h5", picture, {"_ARRAY_DIMENSIONS": ["height", "width", "channel"]})
+    add("picture.h5", picture[None, ..., 2], channel=2)
+    for word in ("depth", "slice", "z", "lev", "plane"):
+        write(f"height_{word}.h5", array.transpose(1, 2, 0), {"_ARRAY_DIMENSIONS": ["height", "width", word]})
+        add(f"height_{word}.h5", array)
+    batch = ramp("<u2", (7, 3, 5, 6))
+    write("batch_four.h5", batch, {"_ARRAY_DIMENSIONS": ["batch", "channel", "height", "width"]})
+    add("batch_four.h5", batch[4:5, 1], time=4, channel=1)
+    for word, others in (("lat", ["lat", "lon"]), ("y", ["y", "x"]), ("rows", ["rows", "columns"])):
+        write(f"air_{word}.h5", array, {"_ARRAY_DIMENSIONS": ["height", *others]})
+        add(f"air_{word}.h5", array)
+    # Numbers that tell axes of one word apart.
+    write("numbered.h5", array.transpose(2, 1, 0), {"_ARRAY_DIMENSIONS": ["x1", "x2", "x3"]})
+    add("numbered.h5", array)
+    write("one_number.h5", array.transpose(2, 1, 0), {"_ARRAY_DIMENSIONS": ["x1", "y1", "z1"]})
+    add("one_number.h5", array)
+    write("levels.h5", array, {"_ARRAY_DIMENSIONS": ["lat1", "lat2", "lat3"]})
+    add("levels.h5", array, warnings=["\"lat3\" of 6 is taken for x", "\"lat2\" of 5 is taken for y",
+                                      "\"lat1\" of 4 is taken for z"])
+    colours = ramp("<u2", (7, 5, 6, 3))
+    write("colours.h5", colours)
+    add("colours.h5", colours[..., 0], warnings=["z, y, x and channel, because the last has 3", "channel 0 of 3 is taken"])
+    add("colours.h5", colours[..., 2], channel=2, warnings=["because the last has 3: \"time\" in the volume takes the first"],
+        contents={"channels": ["", "", ""]})
+    add("colours.h5", colours[4], time=4)
+    write("both_few.h5", colours[:2])
+    add("both_few.h5", colours[1], channel=1)
+    write("tags_bad.h5", array, {"axistags": tags("zyxc")})
+    bad("tags_bad.h5", "axistags", "3 times a \"key\"")
+    write("six.h5", np.zeros((2, 2, 2, *SHAPE), "u1"))
+    bad("six.h5", "no meaning of it")
+
+    # CF: longitude, latitude, level and time by attributes; other orders; units that differ.
+    with h5py.File(cases.path("cf.nc"), "w") as file:
+        file.attrs["_NCProperties"] = "version=2,netcdf=4.9.0"
+        order = (("d0", {"axis": "X", "units": "degrees_east"}, np.arange(6) * .5),
+                 ("d1", {"units": "hours since 2000-01-01"}, [0, 6]),
+                 ("d2", {"positive": "up", "units": "m"}, np.arange(4) * 10. + 5),
+                 ("d3", {"standard_name": "latitude"}, 50 - np.arange(5.)))
+        data = np.stack([array, array + 1000]).astype("f4")  # time z y x
+        data[0, 0, 0, 0] = 9.969209968386869e36
+        file["v"] = np.transpose(data, (3, 0, 1, 2))
+        file["v"].attrs["units"] = "K"
+        for axis, (name, attributes, numbers) in enumerate(order):
+            file[name] = np.asarray(numbers, "f8")
+            file[name].attrs.update(attributes)
+            file[name].make_scale(name)
+            file["v"].dims[axis].attach_scale(file[name])
+    first = array.astype("f4")
+    first[0, 0, 0] = np.nan
+    add("cf.nc", first, diagonal(.5, -1, 10), (0, 50, 5), "degrees_east", time=0,
+        contents={"times": ["0 hours since 2000-01-01", "6 hours since 2000-01-01"]},
+        warnings=["1 samples are NaN", "have the units degrees_east, none, m"])
+    add("cf.nc", array + 1000., diagonal(.5, -1, 10), (0, 50, 5), "degrees_east", time=1)
+    with h5py.File(cases.path("nexus.h5"), "w") as file:
+        group = file.create_group("entry/data")
+        group["counts"] = array.transpose(2, 1, 0)
+        group.attrs.update({"signal": "counts", "axes": ["x", "y", "z"]})
+        for name, count, step, unit in (("x", 6, .5, "mm"), ("y", 5, 250, "um"), ("z", 4, .002, "m")):
+            group[name] = np.arange(count) * step
+            group[name].attrs["units"] = unit
+    add("nexus.h5", array, diagonal(.5, .25, 2), unit="mm")
+    with h5py.File(cases.path("nearly.h5"), "w") as file:
+        file["v"] = array
+        file["z"] = [0., 1.03, 1.98, 3]
+        file["z"].make_scale("z")
+        file["v"].dims[0].attach_scale(file["z"])
+    add("nearly.h5", array, warnings=["of z are taken as equally spaced", "by up to 0.03 of their distance"])
+    with h5py.File(cases.path("uneven.h5"), "w") as file:
+        file["v"] = array
+        file["z"] = [0., 1, 3, 4]
+        file["z"].make_scale("z")
+        file["v"].dims[0].attach_scale(file["z"])
+    add("uneven.h5", array, warnings=["the coordinates of z are not equally spaced"])
+
+
+def lengths(h5py, cases, write, add, bad):
+    """Distances and places under the names of several programs, in the order of the array's axes."""
+    array = ramp()
+    steps = diagonal(.9, .7, 2.5)
+    for key, unit in (("element_size_um", "um"), ("resolution", ""), ("voxel_size", ""), ("spacing", ""),
+                      ("pixelSize", ""), ("VoxelSize", ""), ("voxel_size_nm", "nm")):
+        write("length.h5", array, {key: [2.5, .7, .9]})
+        os.rename(cases.path("length.h5"), cases.path(f"length_{key}.h5"))
+        add(f"length_{key}.h5", array, steps, unit=unit,
+            warnings=[] if key == "element_size_um" else [f"{key} (2.5, 0.7, 0.9) is taken in the order of"])
+    write("offset.h5", array.transpose(2, 1, 0), {"axes": "xyz", "resolution": [.9, .7, 2.5], "offset": [1., 2., 3.],
+                                                  "resolution_unit": "nm"})
+    add("offset.h5", array, steps, (1, 2, 3), unit="nm")
+    write("one.h5", array, {"voxel_size": .25})
+    add("one.h5", array, diagonal(.25, .25, .25))
+    write("zero.h5", array, {"resolution": [0., 1, 1]})
+    add("zero.h5", array, warnings=["resolution: found 0, 1, 1", "it is not used"])
+    with h5py.File(cases.path("parent.h5"), "w") as file:
+        file["volumes/raw"] = array
+        file["volumes"].attrs["element_size_um"] = [2.5, .7, .9]
+        file.attrs["origin"] = [3., 2., 1.]
+    add("parent.h5", array, steps, (1, 2, 3), unit="um")
+
+
+def packed(h5py, cases, write, add, bad):
+    """scale_factor, fill values, valid ranges, _Unsigned."""
+    array = ramp()
+    array[0, 0, 1] = -32768
+    want = array * .5 + 10
+    want[0, 0, 1] = np.nan
+    write("packed.nc", array, {"scale_factor": .5, "add_offset": 10., "_FillValue": np.int16(-32768)})
+    add("packed.nc", want, drawn="float", warnings=["1 samples are NaN: the file calls them missing (_FillValue -32768)"])
+    want = array.astype("f4")
+    want[(array < 10) | (array > 900)] = np.nan
+    write("range.nc", array, {"valid_range": np.array([10, 900], "i2")}, chunks=(2, 2, 2))
+    add("range.nc", want, drawn="float", warnings=["valid_range 10, to 900"])
+    write("range_text.nc", ramp(), {"valid_range": "0 to 500"})
+    add("range_text.nc", ramp(), warnings=["valid_range: found \"0 to 500\", expected 2 numbers: it is not used"])
+    write("least.nc", array.astype("f8"), {"valid_min": 10., "valid_max": 900.})
+    add("least.nc", want.astype("f8"))
+    several = array.astype("f4")
+    several[several % 5 == 0] = np.nan
+    write("several.nc", array, {"missing_value": np.unique(array[array % 5 == 0]).astype("i2")[:50]})
+    data = ramp("i1")
+    write("unsigned.nc", data, {"_Unsigned": "true", "missing_value": np.int8(-1)})
+    want = data.view("u1").astype("f4")
+    want[want == 255] = np.nan
+    add("unsigned.nc", want, drawn="float")
+    write("signed.nc", data, {"_Unsigned": "true"})
+    add("signed.nc", data.view("u1"))
+    write("fill_signed.nc", ramp("u1"), {"_Unsigned": "false", "missing_value": np.uint8(255)})  # -1
+    want = ramp("u1").view("i1").astype("f4")
+    want[want == -1] = np.nan
+    add("fill_signed.nc", want, drawn="float")
+    for name, attributes in (("scaled", {}), ("hole", {"_FillValue": np.int16(-1)})):
+        with h5py.File(cases.path(f"{name}_places.nc"), "w") as file:
+            file["v"] = ramp()
+            for axis, (word, size) in enumerate(zip("zyx", SHAPE)):
+                file[word] = np.arange(-1, size - 1).astype("i2")
+                file[word].attrs.update({"scale_factor": .1 * (axis + 1), "add_offset": 10., "units": "m", **attributes})
+                file[word].make_scale(word)
+                file["v"].dims[axis].attach_scale(file[word])
+    add("scaled_places.nc", ramp(), diagonal(.3, .2, .1), (9.7, 9.8, 9.9), "m")
+    add("hole_places.nc", ramp(), warnings=["the coordinates of z are not equally spaced"])
+    for word in ("True", "TRUE", "FALSE", "False"):
+        write(f"word_{word}.nc", ramp("i1"), {"_Unsigned": word})
+        add(f"word_{word}.nc", ramp("u1" if word.lower() == "true" else "i1"))
+    for number, (key, value, *words) in enumerate((
+            ("_Unsigned", "yes", "found \"yes\", expected \"true\" or \"false\""), ("_Unsigned", 1, "found 1, expected"),
+            ("scale_factor", ".5", "found \".5\", expected one number"), ("add_offset", np.nan, "found nan, expected"),
+            ("scale_factor", [.5, 2.], "found 0.5, 2, expected one number"), ("add_offset", np.zeros(70), "neither text nor"),
+            ("add_offset", "ten", "found \"ten\""))):
+        write(f"unusable{number}.nc", ramp("i1"), {key: value})
+        bad(f"unusable{number}.nc", f"{key}: ", *words)
+    write("zero_scale.nc", array, {"scale_factor": 0.})
+    bad("zero_scale.nc", "scale_factor: found 0")
+
+
+def others(h5py, cases, write, add, bad):
+    """Truth values, float16, bits, colour images, soft links."""
+    truth = ramp() % 3 == 0
+    write("bool.h5", truth)
+    add("bool.h5", truth.astype("u1"))
+    write("half.h5", ramp("<f2"))
+    add("half.h5", ramp("<f2").astype("f4"))
+    with h5py.File(cases.path("bits.h5"), "w") as file:  # as PyTables stores truth values
+        space = h5py.h5s.create_simple(SHAPE)
+        data = h5py.h5d.create(file.id, b"v", h5py.h5t.STD_B8LE, space)
+        data.write(h5py.h5s.ALL, h5py.h5s.ALL, truth.astype("u1"), h5py.h5t.STD_B8LE)
+    add("bits.h5", truth.astype("u1"))
+    colours = ramp("u1", (5, 6, 3))
+    for mode, order in (("INTERLACE_PIXEL", (0, 1, 2)), ("INTERLACE_LINE", (0, 2, 1)), ("INTERLACE_PLANE", (2, 0, 1))):
+        write(f"{mode}.h5", colours.transpose(order), {"CLASS": np.bytes_("IMAGE"), "INTERLACE_MODE": np.bytes_(mode),
+                                                       "IMAGE_SUBCLASS": np.bytes_("IMAGE_TRUECOLOR")})
+        add(f"{mode}.h5", colours[None, :, :, 1], channel=1, contents={"is_colour": True})
+    with h5py.File(cases.path("soft.h5"), "w") as file:
+        file["group/v"] = ramp()
+        file["link"] = h5py.SoftLink("/group/v")
+        file["group/inner"] = h5py.SoftLink("v")
+        file["again"] = file["group/v"]  # a second hard link is no second array
+    for array in ("", "/link", "/group/inner", "/again"):
+        add("soft.h5", ramp(), array=array)
+
+
+def imaris(h5py, cases, write, add, bad):
+    """The last chunks are padded; sizes and extents are texts of one letter each."""
+    def letters(text):
+        return np.array([letter.encode() for letter in text], "S1")
+    arrays = {}
+    with h5py.File(cases.path("im.ims"), "w") as file:
+        file.attrs["ImarisDataSet"] = letters("ImarisDataSet")
+        for level, size in enumerate(((8, 10, 12), (4, 5, 6))):
+            for time in range(2):
+                for channel in range(2):
+                    group = file.create_group(f"DataSet/ResolutionLevel {level}/TimePoint {time}/Channel {channel}")
+                    padded = np.full((16, 16, 16), 999, "<u2")
+                    array = ramp("<u2", size) + 2000 * channel + 4000 * time
+                    padded[:size[0], :size[1], :size[2]] = array
+                    group.create_dataset("Data", data=padded, chunks=(8, 8, 8), compression="gzip")
+                    for axis, count in zip("ZYX", size):
+                        group.attrs[f"ImageSize{axis}"] = letters(str(count))
+                    arrays[level, time, channel] = array
+        image = file.create_group("DataSetInfo/Image")
+        for axis, (low, high) in enumerate(((1, 11.8), (0, 7), (-5, 15))):
+            image.attrs[f"ExtMin{axis}"] = letters(str(low))
+            image.attrs[f"ExtMax{axis}"] = letters(str(high))
+        image.attrs["Unit"] = letters("um")
+        for channel, name in enumerate(("DAPI", "GFP")):
+            file.create_group(f"DataSetInfo/Channel {channel}").attrs["Name"] = letters(name)
+        times = file.create_group("DataSetInfo/TimeInfo")
+        times.attrs["TimePoint1"], times.attrs["TimePoint2"] = letters("2020-01-01"), letters("2020-01-02")
+        file["Thumbnail/Data"] = np.zeros((4, 4, 4), "u1")
+    contents = {"channels": ["DAPI", "GFP"], "times": ["2020-01-01", "2020-01-02"], "levels": [[12, 10, 8], [6, 5, 4]]}
+    for (level, time, channel), array in arrays.items():
+        steps, half = np.array([.9, .7, 2.5]) * 2 ** level, 2 ** level / 2
+        where = np.array([1, 0, -5]) + np.array([.9, .7, 2.5]) * half
+        add("im.ims", array, np.diag(steps), where, "um", contents, cell=True, level=level, time=time, channel=channel)
+    add("im.ims", arrays[0, 0, 0], diagonal(.9, .7, 2.5), (1.45, .35, -3.75), "um", cell=True,
+        warnings=["level 0 of 2 is taken", "channel 0 of 2 is taken", "time 0 of 2 is taken"])
+    for start in ("/", "", "//"):
+        bad("im.ims", "level, time and channel choose it",
+            array=f"{start}DataSet/ResolutionLevel 0/TimePoint 0/Channel 0/Data")
+    bad("im.ims", "channel: found 2, expected a whole number from 0 to 1", channel=2)
+    first, place = "DataSet/ResolutionLevel 0/TimePoint 0/Channel 0", "DataSetInfo/Image"
+    for name, group, key, text, expected in (
+            ("far", place, "ExtMax0", "far", "expected a number"), ("comma", place, "ExtMax1", "10,8", "expected a number"),
+            ("end", place, "ExtMin2", "1.5 um", "expected a number"), ("none", place, "ExtMin2", " ", "expected a number"),
+            ("half", first, "ImageSizeX", "11.5", "expected a whole number"), ("padded", place, "ExtMax0", "11.8  ", "")):
+        with h5py.File(cases.path("im.ims"), "r") as old, h5py.File(cases.path(f"im_{name}.ims"), "w") as file:
+            for part in old:
+                old.copy(part, file)
+            file[group].attrs[key] = letters(text)
+        if expected:
+            bad(f"im_{name}.ims", f"/{group}: {key}: found", text, expected, level=0, channel=0, time=0)
+        else:
+            add(f"im_{name}.ims", arrays[0, 0, 0], diagonal(.9, .7, 2.5), (1.45, .35, -3.75), "um", cell=True, level=0,
+                channel=0, time=0)
+
+
+def big_data_viewer(h5py, cases, write, add, bad):
+    fine, coarse = ramp("<i2", (4, 6, 8)), ramp("<i2", (4, 3, 4))
+    fine[0, 0, 0] = -1  # 65535: BigDataViewer's shorts have no sign
+    with h5py.File(cases.path("bdv.h5"), "w") as file:
+        for time in range(2):
+            for setup in range(2):
+                file[f"t{time:05}/s{setup:02}/0/cells"] = fine + time * 10 + setup
+                file[f"t{time:05}/s{setup:02}/1/cells"] = coarse + time * 10 + setup
+        for setup in range(2):
+            file[f"s{setup:02}/resolutions"] = np.array([[1, 1, 1], [2, 2, 1]], "f8")
+            file[f"s{setup:02}/subdivisions"] = np.array([[4, 4, 4], [4, 4, 4]], "i4")
+    add("bdv.h5", fine.view("u2"), warnings=["the sizes of voxels in its .xml"])
+    for request in ({"level": 1, "time": 1, "channel": 1}, {"array": "/t00001/s01/1/cells"},
+                    {"array": "t00001//s01/1/cells", "time": 1}):
+        add("bdv.h5", (coarse + 11).view("u2"), diagonal(2, 2, 1), (.5, .5, 0), **request,
+            contents={"channels": ["", ""], "times": ["", ""]}, warnings=["the sizes of voxels in its .xml"])
+    bad("bdv.h5", "time: found 0, expected 1 or none", "/t00001/s01/1/cells", array="/t00001/s01/1/cells", time=0)
+    bad("bdv.h5", "level: found 2, expected a whole number from 0 to 1", array="/t00001/s01/2/cells")
+
+
+def vtk_images(h5py, cases, write, add, bad):
+    """VTKHDF by its specification: arrays of points and cells, times, components, directions."""
+    def image(file, kind="ImageData", turn=None, extent=(2, 7, -1, 3, 4, 7)):
+        root = file.create_group("VTKHDF")
+        root.attrs["Version"] = [2, 0]
+        root.attrs.create("Type", kind.encode("ascii"), dtype=h5py.string_dtype("ascii", len(kind)))
+        root.attrs["WholeExtent"] = list(extent)
+        root.attrs["Origin"], root.attrs["Spacing"] = [1., 2, 3], [.5, .75, 2]
+        if turn is not None:
+            root.attrs["Direction"] = turn.ravel()
+        return root
+    turn = rotation(.3, .2, .1)
+    points, cells = ramp(), ramp("<f4", (3, 4, 5))
+    colours = ramp("u1", (4, 5, 6, 3))
+    with h5py.File(cases.path("image.vtkhdf"), "w") as file:
+        root = image(file, turn=turn)
+        root.create_group("PointData").attrs["Scalars"] = "a"
+        root["PointData/a"], root["PointData/0"], root["CellData/cells"] = points, colours, cells
+    spacing = np.array([.5, .75, 2])
+    steps = (turn * spacing).T  # the matrix's columns are the axes
+    first = np.array([1, 2, 3]) + np.array([2, -1, 4]) @ steps
+    arrays = {"arrays": ["/VTKHDF/PointData/0", "/VTKHDF/PointData/a", "/VTKHDF/CellData/cells"]}
+    add("image.vtkhdf", points, steps, first)
+    add("image.vtkhdf", colours[..., 2], steps, first, array="0", channel=2)
+    add("image.vtkhdf", cells, steps, first + np.array([.5, .5, .5]) @ steps, array="/VTKHDF/CellData/cells", cell=True,
+        contents=arrays)
+    bad("image.vtkhdf", "array: found \"none\"", "/VTKHDF/PointData/a", array="none")
+    with h5py.File(cases.path("times.vtkhdf"), "w") as file:
+        root = image(file)
+        root["PointData/a"] = np.stack([points, points + 1000])
+        group = root.create_group("Steps")
+        group.attrs["NSteps"] = 3
+        group["Values"] = [0., .5, 1.5]
+        group["PointDataOffsets/a"] = [1, 0, 1]
+    for time, values in ((0, points + 1000), (1, points), (2, points + 1000)):
+        add("times.vtkhdf", values, np.diag(spacing), np.array([1, 2, 3]) + np.array([2, -1, 4]) * spacing, time=time,
+            contents={"times": ["0", "0.5", "1.5"]})
+    bad("times.vtkhdf", "time: found 3", time=3)
+    with h5py.File(cases.path("mesh.vtkhdf"), "w") as file:
+        image(file, "UnstructuredGrid")
+    for name, link in (("away", h5py.ExternalLink("times.vtkhdf", "/VTKHDF/PointData")),
+                       ("soft", h5py.SoftLink("/VTKHDF/CellData"))):
+        with h5py.File(cases.path(f"{name}.vtkhdf"), "w") as file:
+            root = image(file)
+            root["CellData/cells"] = cells
+            root["PointData"] = link
+        for request in ({}, {"array": "a"}):
+            bad(f"{name}.vtkhdf", "/VTKHDF/PointData: found no such group in the file itself", **request)
+    bad("mesh.vtkhdf", "VTKHDF of type \"UnstructuredGrid\"", ".vtu")
+    with h5py.File(cases.path("short.vtkhdf"), "w") as file:
+        image(file, extent=(0, 9, 0, 4, 0, 3))["PointData/a"] = points
+    bad("short.vtkhdf", "found 6 samples, expected 10")
+
+
+def itk(h5py, cases, write, add, bad):
+    turn = rotation(.3, .2, .1)
+    with h5py.File(cases.path("itk.hdf5"), "w") as file:
+        group = file.create_group("ITKImage/0")
+        group["Dimension"], group["Origin"], group["Spacing"] = [6, 5, 4], [1., 2, 3], [.5, .75, 2]
+        group["Directions"], group["VoxelData"] = turn, ramp()
+    for array in ("", "/ITKImage/0/VoxelData", "ITKImage/0/VoxelData"):
+        add("itk.hdf5", ramp(), turn * np.array([.5, .75, 2])[:, None], (1, 2, 3), lps=True, array=array)
+
+
+def linked(h5py, cases, write, add, bad):
+    """External links, virtual data sets and external storage, also in folders and of one another."""
+    array = ramp()
+    os.makedirs(cases.path("parts"), exist_ok=True)
+    for i in range(4):
+        with h5py.File(cases.path(f"parts/{i}.h5"), "w") as file:
+            file["deep/v"] = array[i]
+            file["link"] = h5py.SoftLink("/deep/v")
+    layout = h5py.VirtualLayout(array.shape, array.dtype)
+    for i in range(4):
+        layout[i] = h5py.VirtualSource(f"parts/{i}.h5", "link" if i % 2 else "deep/v", array[i].shape, array.dtype)
+    with h5py.File(cases.path("virtual.h5"), "w") as file:
+        file.create_virtual_dataset("v", layout)
+        file["v"].attrs["element_size_um"] = [2.5, .7, .9]
+    with h5py.File(cases.path("parts/outer.h5"), "w") as file:
+        file["v"] = h5py.ExternalLink("../virtual.h5", "/v")
+        file["group"] = h5py.ExternalLink("../soft.h5", "/group")
+    with h5py.File(cases.path("twice.h5"), "w") as file:
+        file["v"] = h5py.ExternalLink("parts/outer.h5", "/v")
+        file["group"] = h5py.ExternalLink("parts/outer.h5", "/group")
+    array.tofile(cases.path("parts/samples.raw"))
+    with h5py.File(cases.path("storage.h5"), "w") as file:
+        file.create_dataset("v", array.shape, array.dtype, external=[("parts/samples.raw", 0, array.nbytes)])
+    (np.arange(4) * 2.5 + 1).tofile(cases.path("parts/scale.raw"))
+    for name, raw in (("scale.h5", "parts/scale.raw"), ("lost_scale.h5", "parts/no.raw"), ("parts/up_scale.h5", "../up.raw")):
+        with h5py.File(cases.path(name), "w") as file:
+            file["v"] = array
+            file.create_dataset("z", (4,), "f8", external=[(raw, 0, 32)])
+            file["z"].make_scale("z")
+            file["v"].dims[0].attach_scale(file["z"])
+    (np.arange(4) * 2.5 + 1).tofile(cases.path("up.raw"))
+    add("scale.h5", array, diagonal(1, 1, 2.5), (0, 0, 1), array="/v")
+    bad("lost_scale.h5", "parts/no.raw: no such file", "lost_scale.h5 names it", array="/v")
+    files = ["virtual.h5"] + [f"parts/{i}.h5" for i in range(4)]
+    for name, more, belong in (("virtual.h5", {}, files), ("storage.h5", {}, ["storage.h5", "parts/samples.raw"]),
+                               ("twice.h5", {"array": "/v"}, ["twice.h5", "parts/outer.h5", "soft.h5"] + files),
+                               ("twice.h5", {"array": "/group/v"}, ["twice.h5"])):
+        size = diagonal(.9, .7, 2.5) if "v" == more.get("array", "")[1:] or name == "virtual.h5" else None
+        add(name, array, size, unit="um" if size is not None else "", **more)
+        cases.cases[-1]["files"] = belong
+    with h5py.File(cases.path("lost.h5"), "w") as file:
+        file["v"] = h5py.ExternalLink("parts/none.h5", "/v")
+    bad("lost.h5", "parts/none.h5: no such file", "lost.h5 names it")
+    layout[0] = h5py.VirtualSource("parts/gone.h5", "v", array[0].shape, array.dtype)
+    with h5py.File(cases.path("hole.h5"), "w") as file:
+        file.create_virtual_dataset("v", layout)
+    bad("hole.h5", "parts/gone.h5: no such file", "hole.h5 names it")
+    with h5py.File(cases.path("ring.h5"), "w") as file:
+        file["v"] = h5py.SoftLink("/w")
+        file["w"] = h5py.SoftLink("/v")
+    bad("ring.h5", "links that lead to links", array="/v")
+    with open(cases.path("parts/no.h5"), "w", encoding="utf-8") as file:
+        file.write("no HDF5 file")
+    with h5py.File(cases.path("wrong.h5"), "w") as file:
+        file["v"] = h5py.ExternalLink("parts/no.h5", "/v")
+    bad("wrong.h5", "parts/no.h5", "no signature of HDF5")
+
+
+def refused(h5py, cases, write, add, bad):
+    write("complex.h5", np.zeros(SHAPE, "c8"))
+    bad("complex.h5", "complex numbers of r, i", array="/v")
+    write("words.h5", np.full(SHAPE, b"word"))
+    bad("words.h5", "found text of 4 bytes", array="/v")
+    with h5py.File(cases.path("minc.mnc.h5"), "w") as file:
+        file["minc-2.0/image/0/image"] = ramp()
+    for request in ({}, {"array": "/minc-2.0/image/0/image"}, {"array": "minc-2.0/image/0/image"}):
+        bad("minc.mnc.h5", "found MINC", "mnc2nii", **request)
+
+
+def classic(cases, add, bad):
+    """Classic NetCDF; `wild` is interleaved with a record variable of another type."""
+    from scipy.io import netcdf_file
+    array = ramp(">i2")
+    data = np.stack([array, array + 1000])
+    for version in (1, 2):
+        name = f"classic{version}.nc"
+        with netcdf_file(cases.path(name), "w", version=version) as file:
+            file.title = "a title"
+            for word, size in (("time", None), ("lev", 4), ("lat", 5), ("lon", 6)):
+                file.createDimension(word, size)
+            for word, numbers, unit in (("lev", [5, 3, 1, -1], "m"), ("lat", [50, 49, 48, 47, 46], "degrees_north"),
+                                        ("lon", np.arange(6) * .5, "degrees_east")):
+                variable = file.createVariable(word, "f", (word,))
+                variable[:] = numbers
+                variable.units = unit
+            time = file.createVariable("time", "d", ("time",))
+            time.units = "days since 2000-01-01"
+            odd = file.createVariable("odd", "b", ("time", "lat"))  # padded to 4 bytes a record
+            v = file.createVariable("v", "h", ("time", "lev", "lat", "lon"))
+            turned = file.createVariable("turned", "f", ("lon", "lat", "lev"))
+            movie = file.createVariable("movie", "i", ("time", "lat", "lon"))
+            v.scale_factor, v.add_offset, v._FillValue = .5, 10., np.int16(7)
+            turned[:] = array.transpose(2, 1, 0)
+            for i in range(2):
+                time[i], odd[i], v[i], movie[i] = i * 2, i, data[i], array[0] + i * 1000
+        steps, origin = diagonal(.5, -1, -2), (0, 50, 5)
+        contents = {"arrays": ["turned", "v", "movie"], "times": ["0 days since 2000-01-01", "2 days since 2000-01-01"]}
+        for i in range(2):
+            want = data[i] * .5 + 10
+            want[data[i] == 7] = np.nan
+            add(name, want, steps, origin, "degrees_east", contents, drawn="float", array="v", time=i)
+            add(name + ":/movie", (array[:1] + i * 1000).astype("i4"), diagonal(.5, -1, 1), (0, 50, 0), "degrees_east", time=i)
+        add(name, array.astype("f4"), steps, origin, "degrees_east", array="/turned", warnings=["units degrees_east, degrees_north, m"])
+        bad(name, "found the arrays turned, v, movie", f"{name}:/turned")
+        bad(name, "named \"none\"", array="none")
+        with open(cases.path(name), "rb") as file:
+            whole = file.read()
+        with open(cases.path("cut_" + name), "wb") as file:
+            file.write(whole[:-600])
+        bad("cut_" + name, "truncated", array="v")
+    with netcdf_file(cases.path("places.nc"), "w") as file:
+        for word, size in zip("zyx", SHAPE):
+            file.createDimension(word, size)
+            variable = file.createVariable(word, "h", (word,))
+            variable[:] = np.arange(size)
+            variable.scale_factor, variable.add_offset, variable.units = .25, 10., "m"
+        file.createVariable("v", "h", ("z", "y", "x"))[:] = array
+    add("places.nc", array, diagonal(.25, .25, .25), (10, 10, 10), "m")
+    with netcdf_file(cases.path("single.nc"), "w") as file:  # a single record variable is not padded
+        for word, size in (("z", None), ("y", 3), ("x", 3)):
+            file.createDimension(word, size)
+        v = file.createVariable("v", "b", ("z", "y", "x"))
+        for i in range(4):
+            v[i] = np.arange(9).reshape(3, 3) + 10 * i
+    add("single.nc", (np.arange(9).reshape(1, 3, 3) + 10 * np.arange(4)[:, None, None]).astype("i1"), drawn="int16")
+
+    def name_of(text):  # CDF-5: counts have 8 bytes
+        return struct.pack(">q", len(text)) + text.encode() + b"\0" * (-len(text) % 4)
+
+    def header(begin):
+        dims = b"".join(name_of(word) + struct.pack(">q", size) for word, size in (("c", 3), ("z", 4), ("y", 5), ("x", 6)))
+        return (b"CDF\5" + struct.pack(">q", 0) + struct.pack(">iq", 10, 4) + dims + struct.pack(">iq", 0, 0) +
+                struct.pack(">iq", 11, 1) + name_of("v") + struct.pack(">q4q", 4, 1, 2, 3, 0) + struct.pack(">iq", 0, 0) +
+                struct.pack(">iqq", 10, 8 * 360, begin))
+    big = (ramp("i8", (4, 5, 6, 3)) - 500).astype(">i8")
+    with open(cases.path("big.nc"), "wb") as file:
+        file.write(header(len(header(0))) + big.tobytes())
+    add("big.nc", big[..., 2].astype("i8"), channel=2, contents={"channels": ["", "", ""]})
+    with open(cases.path("none.nc"), "wb") as file:
+        file.write(b"no file of NetCDF")
+    bad("none.nc", "neither classic NetCDF nor HDF5")
+    with open(cases.path("endless.nc"), "wb") as file:
+        file.write(b"CDF\1" + b"\0\0\0\0" + struct.pack(">ii", 10, 2**31 - 1))
+    bad("endless.nc", "truncated")
