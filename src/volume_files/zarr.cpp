@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// OME-Zarr: ngff.openmicroscopy.org/0.4, "multiscales" metadata.
-#include "volume_files/volume_formats.h"
-
+// Hierarchies of Zarr: which array or image of them is read.
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <nlohmann/json_fwd.hpp>
+#include <utility>
 
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "volume_files/zarr_chunks.h"
+#include "volume_files/volume_formats.h"
+#include "volume_files/zarr_image.h"
 
 namespace lamina {
 namespace {
@@ -22,240 +20,210 @@ namespace {
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
 
-// One array of an image, and the meaning of its axes.
-struct ZarrImage {
-    std::filesystem::path folder;            // the array's
-    std::vector<std::string> axes;           // "t", "c", "z", "y" or "x", in the array's order
-    std::vector<double> scale, translation;  // from indices to the world, along each axis
+// Folders of arrays that are not Zarr but look like it, and the file by which each is known.
+struct OtherStore {
+    const char* file;
+    const char* word;  // in the file
+    const char* name;
 };
+constexpr OtherStore other_stores[] = {
+    {"attributes.json", "\"n5\"", "N5"},
+    {"attributes.json", "\"blockSize\"", "N5"},
+    {"info", "neuroglancer_multiscale_volume", "Neuroglancer precomputed"},
+    {"info", "\"num_channels\"", "Neuroglancer precomputed"},
+    {"__tiledb_group.tdb", "", "TileDB"},
+    {"__schema", "", "TileDB"}};
 
-constexpr std::size_t most_image_axes = 5;
+// Returns the kind of a folder of arrays that is not Zarr; null for other folders.
+const char* other_store(const Path& folder) {
+    constexpr std::size_t most_bytes = 4096;
+    std::error_code unreadable;
+    for (const OtherStore& one : other_stores) {
+        if (std::filesystem::exists(folder / one.file, unreadable) &&
+            file_beginning(folder / one.file, most_bytes).find(one.word) != std::string::npos)
+            return one.name;
+    }
+    return nullptr;
+}
 
-// Reads an image's metadata, "multiscales", from an OME-Zarr folder's attributes. Throws Error.
-class OmeReader {
+constexpr std::size_t most_of_list = 400;  // bytes of a list of names in a message
+
+// Finds the arrays and images in a folder and its subfolders, of which links can make a number
+// without end. Throws Error.
+class ArraySearch {
   public:
-    OmeReader(const std::filesystem::path& folder, const Json& attributes)
-        : folder_(folder),
-          name_((folder / ".zattrs").string()),
-          image_(attributes["multiscales"][0]) {}
+    // `root`: names are relative to it.
+    ArraySearch(const ZarrStore& store, Path root) : store_(store), root_(std::move(root)) {}
 
-    ZarrImage read(const std::optional<std::int64_t>& wanted) {
-        const Json& datasets = list_in(image_, "datasets");
-        const auto level = static_cast<std::size_t>(taken_of(
-            folder_.string(), "level", wanted, static_cast<std::int64_t>(datasets.size())));
-        const Json& dataset = datasets[level];
-        const Json* const path = member_of(dataset, "path");
-        if (path == nullptr || !path->is_string())
-            fail("{}: datasets: found {}, expected a \"path\"", name_, json_excerpt(dataset));
-        ZarrImage image{folder_ / path->get<std::string>(), read_axes(), {}, {}};
-        image.scale.assign(image.axes.size(), 1);
-        image.translation.assign(image.axes.size(), 0);
-        transform(dataset, image);
-        transform(image_, image);
-        return image;
+    void look_in(const Path& folder, int depth = 0) {
+        check_interrupt();
+        if (++folders_ > ZarrStore::most_folders || found_.size() >= most_arrays ||
+            depth > most_depth) {
+            is_cut_ = true;
+            return;
+        }
+        std::error_code in_archive;
+        const Path real = std::filesystem::canonical(folder, in_archive);
+        // A link may lead back to a folder on the path to it.
+        if (!real.empty() && std::ranges::find(above_, real) != above_.end()) return;
+        const ZarrNode node = zarr_node(store_, folder);
+        if (node.is_array || (depth > 0 && is_ome_image(node))) {
+            if (depth > 0)
+                found_.emplace_back(node.rank, folder.lexically_relative(root_).string());
+            return;
+        }
+        above_.push_back(real);
+        for (const Path& inner : store_.folders_in(folder)) look_in(inner, depth + 1);
+        above_.pop_back();
+    }
+
+    // Returns the names of those with `least` axes or more.
+    std::vector<std::string> names(std::size_t least) const {
+        std::vector<std::string> names;
+        for (const auto& [rank, name] : found_)
+            if (rank >= least) names.push_back(name);
+        return names;
+    }
+
+    void say_if_cut() const {
+        if (!is_cut_) return;
+        warn(fmt::format(
+            "{}: found more than {} folders, {} arrays or {} levels: the rest is not listed",
+            root_.string(), ZarrStore::most_folders, most_arrays, most_depth));
     }
 
   private:
-    const Json& list_in(const Json& object, const char* key) const {
-        const Json* const found = member_of(object, key);
-        if (found == nullptr || !found->is_array() || found->empty())
-            fail("{}: multiscales: found no list \"{}\", expected one", name_, key);
-        return *found;
-    }
+    static constexpr int most_depth = 8;  // levels of folders
+    static constexpr std::size_t most_arrays = 1000;
 
-    // Returns the names of the axes. Version 0.3 of the format has only names; earlier ones have
-    // none, and the axes are always t, c, z, y, x.
-    std::vector<std::string> read_axes() const {
-        if (!image_.contains("axes")) return {"t", "c", "z", "y", "x"};
-        std::vector<std::string> axes;
-        std::string unit;
-        for (const Json& axis : list_in(image_, "axes")) {
-            const Json* const named = member_of(axis, "name");
-            const Json& name = named != nullptr ? *named : axis;
-            const std::string word = name.is_string() ? name.get<std::string>() : "";
-            if (word.size() != 1 || std::string("tczyx").find(word) == std::string::npos) {
-                fail("{}: axes: found {}, expected \"t\", \"c\", \"z\", \"y\" or \"x\"", name_,
-                     json_excerpt(name));
-            }
-            axes.push_back(word);
-            if (word != "t" && word != "c") expect_unit(axis, unit);
-        }
-        if (axes.size() > most_image_axes)
-            fail("{}: axes: found {}, expected at most {}", name_, axes.size(), most_image_axes);
-        return axes;
-    }
-
-    // Throws Error if an axis has another unit than the axes before it; `unit` is theirs.
-    void expect_unit(const Json& axis, std::string& unit) const {
-        const Json* const found = member_of(axis, "unit");
-        if (found == nullptr || !found->is_string()) return;
-        const auto here = found->get<std::string>();
-        if (!unit.empty() && here != unit) {
-            fail("{}: axes: found the units \"{}\" and \"{}\", expected one for all", name_,
-                 one_line(unit), one_line(here));
-        }
-        unit = here;
-    }
-
-    std::vector<double> numbers_in(const Json& step, const char* key, std::size_t count) const {
-        std::vector<double> numbers;
-        const Json& list = step.contains(key) ? step[key] : step;
-        bool good = list.is_array() && list.size() == count;
-        for (std::size_t i = 0; good && i < count; ++i) {
-            good = list[i].is_number();
-            if (good) numbers.push_back(list[i].get<double>());
-        }
-        if (!good) {
-            fail("{}: coordinateTransformations: found {}, expected a \"{}\" of {} numbers", name_,
-                 json_excerpt(step), key, count);
-        }
-        return numbers;
-    }
-
-    // Applies the transformations of a dataset or an image, in the order of its list.
-    void transform(const Json& of, ZarrImage& image) const {
-        if (!of.contains("coordinateTransformations")) return;
-        const std::size_t count = image.axes.size();
-        for (const Json& step : list_in(of, "coordinateTransformations")) {
-            const Json type = step.is_object() ? step.value("type", Json()) : Json();
-            if (type == "scale") {
-                const auto scale = numbers_in(step, "scale", count);
-                for (std::size_t i = 0; i < count; ++i) {
-                    image.scale[i] *= scale[i];
-                    image.translation[i] *= scale[i];
-                }
-            } else if (type == "translation") {
-                const auto shift = numbers_in(step, "translation", count);
-                for (std::size_t i = 0; i < count; ++i) image.translation[i] += shift[i];
-            } else if (type != "identity") {
-                fail(
-                    "{}: coordinateTransformations: found {}, expected the type \"scale\" or "
-                    "\"translation\"",
-                    name_, json_excerpt(step));
-            }
-        }
-    }
-
-    std::filesystem::path folder_;
-    std::string name_;
-    const Json& image_;
+    const ZarrStore& store_;
+    Path root_;
+    std::vector<Path> above_;  // folders on the path, without links; "" in archives
+    std::vector<std::pair<std::size_t, std::string>> found_;  // number of axes, path in the root
+    std::size_t folders_ = 0;
+    bool is_cut_ = false;
 };
 
-// Returns the attributes (.zattrs) of a folder; an empty object if there are none. Throws Error.
-Json zarr_attributes(const std::filesystem::path& folder) {
-    const std::filesystem::path file = folder / ".zattrs";
-    if (!std::filesystem::exists(file)) return Json::object();
-    expect_allowed(file);
-    Json attributes = load_json(file);
-    if (!attributes.is_object())
-        fail("{}: found {}, expected an object", file.string(), json_excerpt(attributes));
-    return attributes;
+// Returns the arrays and images of a group that can be volumes: those of three axes or more, or, if
+// there are none, of two. A group that is an image has those of its labels.
+std::vector<std::string> volumes_in(const ZarrStore& store, const Path& root) {
+    ArraySearch search(store, root);
+    const Path labels = root / "labels";
+    if (!is_ome_image(zarr_node(store, root)))
+        search.look_in(root);
+    else if (store.has_header(labels))
+        search.look_in(labels);
+    search.say_if_cut();
+    const std::vector<std::string> names = search.names(3);
+    return names.empty() ? search.names(2) : names;
 }
 
-bool is_ome_zarr(const Json& attributes) {
-    const Json* const found = member_of(attributes, "multiscales");
-    return found != nullptr && found->is_array() && !found->empty() && found->front().is_object();
+// Names a plate or well (OME-Zarr, "plate" and "well" metadata) for messages; "" for other groups.
+const char* plate_of(const ZarrNode& node) {
+    const Json& attributes = ome_attributes(node);
+    if (attributes.contains("plate")) return "it is a plate, of whose fields one is an image: ";
+    return attributes.contains("well") ? "it is a well, of whose fields one is an image: " : "";
 }
 
-bool has_file(const Path& folder, const char* name) {
-    std::error_code unreadable;
-    return std::filesystem::exists(folder / name, unreadable);
-}
-
-// Adds the arrays and images in a folder and its subfolders to `found`, by their paths in `root`.
-void find_arrays(const Path& root, const Path& folder, int depth, std::vector<std::string>& found) {
-    constexpr int most_depth = 8;
-    constexpr std::size_t most_entries = 1000;
-    check_interrupt();
-    if (found.size() >= most_entries || depth > most_depth) return;
-    expect_allowed(folder);
-    if (depth > 0 && (has_file(folder, ".zarray") || is_ome_zarr(zarr_attributes(folder)))) {
-        found.push_back(folder.lexically_relative(root).string());
-        return;
+// Returns the image of which an array is a level, or else the array alone.
+ZarrImage image_of(const ZarrStore& store, const Path& array) {
+    const Path above = array.parent_path();
+    std::optional<std::int64_t> level;
+    ZarrNode node;
+    if (!above.empty() && store.has_header(above)) {
+        try {
+            node = zarr_node(store, above);
+            level = level_of(node, array);
+        } catch (const Error& problem) {
+            // A client that may read the array may be kept from what lies above it.
+            if (!is_restricted()) warn(fmt::format("{}: {}", array.string(), problem.what()));
+        }
     }
-    std::vector<Path> folders;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        if (entry.is_directory() && folders.size() < most_entries) folders.push_back(entry.path());
-    }
-    std::ranges::sort(folders);
-    for (const Path& inner : folders) find_arrays(root, inner, depth + 1, found);
+    return level ? read_ome_image(node, level) : ZarrImage{array, {}, {}, {}, {}, {}};
 }
 
-// Returns the axes of an array without OME-Zarr's metadata: the last ones of t, c, z, y, x.
-std::vector<std::string> plain_axes(const ZarrArray& array) {
-    static const std::vector<std::string> all{"t", "c", "z", "y", "x"};
-    if (array.shape.size() > all.size()) {
-        fail("{}: shape: found {} axes, expected at most {}", (array.folder / ".zarray").string(),
-             array.shape.size(), all.size());
+// Returns the array or image that the request takes of a folder; `axes` is empty for an array. Sets
+// `arrays` to those of the folder if it must look for them.
+ZarrImage image_in(const ZarrStore& store, const Path& root, const VolumeRequest& request,
+                   std::vector<std::string>& arrays) {
+    const Path folder = request.array.empty() ? root : root / request.array;
+    const ZarrNode node = zarr_node(store, folder);
+    if (node.is_array) {
+        if (request.level) taken_of(folder.string(), "level", request.level, 1);
+        return image_of(store, folder);
     }
-    return {all.end() - static_cast<std::ptrdiff_t>(array.shape.size()), all.end()};
-}
-
-// Returns the array or image that the request takes of a folder; `axes` is empty for an array.
-ZarrImage image_in(const Path& path, const VolumeRequest& request) {
-    const Path folder = request.array.empty() ? path : path / request.array;
-    if (has_file(folder, ".zarray")) return {folder, {}, {}, {}};
-    const nlohmann::json attributes = zarr_attributes(folder);
-    if (is_ome_zarr(attributes)) return OmeReader(folder, attributes).read(request.level);
-    if (has_file(folder, "zarr.json"))
-        fail("{}: found Zarr version 3, expected version 2", folder.string());
+    if (is_ome_image(node)) return read_ome_image(node, request.level);
     if (!request.array.empty())
-        fail("{}: array: found \"{}\", expected an array of it", path.string(), request.array);
-    std::vector<std::string> arrays;
-    find_arrays(path, path, 0, arrays);
-    if (arrays.empty()) fail("{}: found no array in it", path.string());
+        fail("{}: array: found \"{}\", expected an array of it", root.string(), request.array);
+    arrays = volumes_in(store, root);
+    if (arrays.empty()) fail("{}: found no array in it", root.string());
     if (arrays.size() > 1) {
-        fail("{}: found the arrays {}, expected one, as in {}", path.string(),
-             fmt::join(arrays, ", "), (path / arrays.front()).string());
+        fail("{}: {}found the arrays {}, expected one, as in {}", root.string(), plate_of(node),
+             shortened(one_line(fmt::format("{}", fmt::join(arrays, ", "))), most_of_list),
+             (root / arrays.front()).string());
     }
     VolumeRequest inner = request;
     inner.array = arrays.front();
-    return image_in(path, inner);
+    return image_in(store, root, inner, arrays);
 }
 
-struct PlacedArray {
-    ZarrSelection selection;
-    Grid grid;
-};
-
-// Selects the samples of the volume by the meaning of the array's axes, and places them.
-PlacedArray place(const ZarrArray& array, const ZarrImage& image, const VolumeRequest& request) {
-    const std::string name = image.folder.string();
-    PlacedArray placed;
-    placed.selection.index.assign(array.shape.size(), 0);
-    bool channels = false, times = false;
-    for (std::size_t i = 0; i < array.shape.size(); ++i) {
-        if (image.axes[i] == "t") {
-            placed.selection.index[i] = taken_of(name, "time", request.time, array.shape[i]);
-            times = true;
-        } else if (image.axes[i] == "c") {
-            placed.selection.index[i] = taken_of(name, "channel", request.channel, array.shape[i]);
-            channels = true;
-        } else {
-            const auto axis = static_cast<std::size_t>('z' - image.axes[i][0]);  // z, y, x
-            if (placed.selection.axes[axis] >= 0)
-                fail("{}: axes: found two \"{}\", expected one", name, image.axes[i]);
-            placed.selection.axes[axis] = static_cast<int>(i);
-            const std::size_t in_grid = 2 - axis;
-            placed.grid.size[in_grid] = array.shape[i];
-            placed.grid.step[in_grid] *= image.scale[i];
-            placed.grid.origin[static_cast<int>(in_grid)] = image.translation[i];
+// Fills in the arrays, if they are not there yet, and the levels with their sizes along the axes
+// that are selected.
+void list_contents(const ZarrStore& store, const Path& root, const ZarrImage& image,
+                   const ArrayPlace& placed, VolumeContents& contents) {
+    constexpr std::size_t most_levels = 100;
+    if (contents.arrays.empty()) contents.arrays = volumes_in(store, root);
+    if (!contents.arrays.empty() && is_ome_image(zarr_node(store, root)))
+        contents.arrays.insert(contents.arrays.begin(), "");  // the image itself
+    for (const Path& level : image.levels) {
+        const ZarrArray array = read_zarr_array(store, level);
+        auto& size = contents.levels.emplace_back(std::array<std::int64_t, 3>{1, 1, 1});
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto axis = static_cast<std::size_t>(placed.axes[i]);
+            if (placed.axes[i] >= 0 && axis < array.shape.size()) size[i] = array.shape[axis];
         }
+        if (contents.levels.size() == most_levels) break;
     }
-    if (!channels) taken_of(name, "channel", request.channel, 1);
-    if (!times) taken_of(name, "time", request.time, 1);
-    if (placed.selection.axes[1] < 0 || placed.selection.axes[2] < 0)
-        fail("{}: axes: found no \"y\" and \"x\", expected both", name);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        placed.grid.centering[axis] =
-            placed.grid.size[axis] > 1 ? Centering::node : Centering::cell;
-    }
-    check_grid(name, placed.grid, {"scale", "translation"});
-    return placed;
 }
 
-// Reads all selected samples, in native byte order.
-std::shared_ptr<void> samples_of(const ZarrChunks& chunks) {
+// Gives channels the names that the image has for them.
+void name_channels(const ZarrImage& image, std::vector<std::string>& channels) {
+    if (!image.channels.empty() && image.channels.size() != channels.size()) {
+        warn(fmt::format("{}: omero: found {} channels, expected {}, as the array has",
+                         image.folder.string(), image.channels.size(), channels.size()));
+    }
+    for (std::size_t i = 0; i < std::min(channels.size(), image.channels.size()); ++i)
+        channels[i] = one_line(image.channels[i]);
+}
+
+Volume volume_of(ZarrChunks chunks, const Grid& grid, const VolumeUse& use) {
+    const std::string name = chunks.array().folder.string();
+    const ValueType stored = chunks.array().type;
+    const PackedValues values = zarr_values(chunks.array());
+    const bool is_scaled = values.scale() != 1 || values.offset() != 0;
+    const bool becomes_float = values.can_be_missing() && values.type() != stored;
+    const auto drawn = drawn_type(values.type());
+    if (!drawn || is_scaled || becomes_float) {
+        expect_room(name, chunks.selected_bytes(), use,
+                    is_scaled       ? "its samples are scaled"
+                    : becomes_float ? "its missing samples become NaN"
+                                    : fmt::format("its samples are of type {}", name_of(stored)));
+    } else if (stays_in_files(grid, *drawn, use)) {
+        return stored_volume(grid, *drawn, std::make_unique<ZarrSource>(std::move(chunks), values));
+    }
+    std::shared_ptr<void> samples = zarr_samples(chunks);
+    if (values.can_be_missing()) {
+        const std::shared_ptr<void> marked =
+            filled_memory(static_cast<std::size_t>(grid.sample_count()) * bytes_of(values.type()));
+        values.mark(grid.sample_count(), true, samples.get(), marked.get());
+        samples = marked;
+    }
+    return drawn_volume(grid, {name, values.type(), samples, values.scale(), values.offset()});
+}
+
+}  // namespace
+
+std::shared_ptr<void> zarr_samples(const ZarrChunks& chunks) {
     chunks.check_plausible_size();
     const std::size_t bytes = chunks.selected_bytes();
     const std::shared_ptr<void> memory = filled_memory(bytes);
@@ -264,53 +232,93 @@ std::shared_ptr<void> samples_of(const ZarrChunks& chunks) {
     parallel_for(chunks.count(), 1, [&](std::int64_t chunk) {
         chunks.copy(chunks.decoded(chunk), chunk, whole, static_cast<char*>(memory.get()));
     });
-    const ZarrArray& array = chunks.array();
-    if (array.swap) swap_bytes(memory.get(), whole.count(), bytes_of(array.type));
     return memory;
 }
 
-}  // namespace
+ZarrNode zarr_node(const ZarrStore& store, const Path& folder) {
+    ZarrNode node{.folder = folder};
+    const bool is_new = store.has(folder, "zarr.json");
+    if (!is_new) node.attributes = zarr_attributes(store, folder);
+    node.is_array = store.has(folder, ".zarray");
+    if (!is_new && !node.is_array) return node;
+    const Path file = folder / (is_new ? "zarr.json" : ".zarray");
+    const Json document = store.read_object(file);
+    if (is_new) {
+        const Json& kind = zarr_member(document, "node_type", file.string());
+        node.is_array = kind == "array";
+        if (!node.is_array && kind != "group") {
+            fail("{}: node_type: found {}, expected \"array\" or \"group\"", file.string(),
+                 json_excerpt(kind));
+        }
+        const Json* const attributes = member_of(document, "attributes");
+        if (attributes != nullptr && attributes->is_object()) node.attributes = *attributes;
+    }
+    const Json* const shape = member_of(document, "shape");
+    if (node.is_array && shape != nullptr && shape->is_array()) node.rank = shape->size();
+    return node;
+}
 
 bool is_zarr(const Path& path) {
     std::error_code unreadable;
-    if (!std::filesystem::is_directory(path, unreadable)) return false;
-    return has_file(path, ".zarray") || has_file(path, ".zgroup") || has_file(path, ".zattrs") ||
-           has_file(path, "zarr.json");
+    try {
+        if (std::filesystem::is_directory(path, unreadable))
+            return ZarrStore().has_header(path) || other_store(path) != nullptr;
+        if (archive_of(path).empty()) return false;
+        const ZarrStore store(path);
+        return store.has_header(store.root(path));
+    } catch (const Error&) {
+        return false;  // no archive, or a damaged one
+    }
 }
 
 Volume open_zarr(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
-    ZarrImage image = image_in(path, request);
-    const ZarrArray array = read_zarray(image.folder);
-    if (image.axes.empty()) {
-        if (request.level) taken_of(path.string(), "level", request.level, 1);
-        image.axes = plain_axes(array);
-        image.scale.assign(image.axes.size(), 1);
-        image.translation.assign(image.axes.size(), 0);
+    if (const char* const other = ZarrStore().has_header(path) ? nullptr : other_store(path))
+        fail("{}: found a folder of {}, expected Zarr", path.string(), other);
+    const ZarrStore store(path);
+    const Path root = store.root(path.has_filename() ? path : path.parent_path());
+    VolumeContents contents;
+    const ZarrImage image = image_in(store, root, request, contents.arrays);
+    const ZarrArray array = read_zarr_array(store, image.folder);
+    if (!image.axes.empty() && image.axes.size() != array.shape.size()) {
+        fail("{}: shape: found {} axes, expected {}, as the image has", array.header_name(),
+             array.shape.size(), image.axes.size());
     }
-    if (image.axes.size() != array.shape.size()) {
-        fail("{}: shape: found {} axes, expected {}, as the image has",
-             (image.folder / ".zarray").string(), array.shape.size(), image.axes.size());
+    const ArrayPlace placed = place_array(describe_zarr(array, image), request, contents);
+    if (placed.axes[0] < 0 || placed.axes[1] < 0)
+        fail("{}: axes: found no \"y\" and \"x\", expected both", array.folder.string());
+    if (use.contents != nullptr) {
+        name_channels(image, contents.channels);
+        list_contents(store, root, image, placed, contents);
+        *use.contents = contents;
     }
-    const PlacedArray placed = place(array, image, request);
-    ZarrChunks chunks(array, placed.selection);
+    ZarrChunks chunks(array, {{placed.axes[2], placed.axes[1], placed.axes[0]}, placed.index});
     if (chunks.missing() > 0) {
         warn(fmt::format("{}: {} of {} chunks are not there: they have the fill value {}",
-                         array.folder.string(), chunks.missing(), chunks.count(), array.fill));
+                         array.folder.string(), chunks.missing(), chunks.count(), array.fill_text));
     }
-    const auto type = drawn_type(array.type);
-    if (!type)
-        expect_room(path.string(), chunks.selected_bytes(), use,
-                    fmt::format("its samples are of type {}", name_of(array.type)));
-    else if (stays_in_files(placed.grid, *type, use))
-        return stored_volume(placed.grid, *type, std::make_unique<ZarrSource>(std::move(chunks)));
-    return drawn_volume(placed.grid, {image.folder.string(), array.type, samples_of(chunks)});
+    return volume_of(std::move(chunks), placed.grid, use);
 }
 
 std::vector<Path> files_of_zarr(const Path& path) {
+    if (const Path archive = archive_of(path); !archive.empty()) return {archive};
     std::vector<Path> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(path)) {
-        check_interrupt();
-        if (entry.is_regular_file()) files.push_back(entry.path());
+    const auto add = [&](const Path& folder) {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+            check_interrupt();
+            std::error_code unreadable;  // a link to itself
+            if (entry.is_regular_file(unreadable)) files.push_back(entry.path());
+        }
+    };
+    add(path);
+    // An image may name arrays elsewhere.
+    if (const ZarrNode node = zarr_node({}, path); is_ome_image(node)) {
+        for (const Path& level : read_ome_image(node, 0).levels) {
+            const Path inner = level.lexically_relative(path);
+            std::error_code absent;
+            if ((inner.empty() || *inner.begin() == "..") &&
+                std::filesystem::is_directory(level, absent))
+                add(level);
+        }
     }
     std::ranges::sort(files);
     return files;

@@ -1,228 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Zarr v2 specification (zarr.readthedocs.io, "Zarr Storage Specification Version 2"), and
-// numcodecs for the bytes of chunks.
 #include "volume_files/zarr_chunks.h"
 
-#include <blosc.h>
 #include <fmt/ranges.h>
-#include <lz4.h>
-#include <sys/stat.h>
-#include <zlib.h>
-#include <zstd.h>
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstring>
 #include <limits>
-#include <new>
+#include <type_traits>
 #include <utility>
 
 #include "base/client.h"
 #include "base/output_file.h"
-#include "volume_files/volume_formats.h"
+#include "volume_files/stored_samples.h"
 
 namespace lamina {
-
-// A compression of chunks. decode() returns false unless it gives exactly chunk.size() bytes.
-struct ZarrCodec {
-    const char* id;
-    bool (*decode)(std::span<const char> stored, std::span<char> chunk);
-};
-
-namespace {
-
-using Json = nlohmann::json;
-
-// Upper bound on the bytes that one byte decodes to: zstd packs 2^17 equal bytes into 4.
-constexpr std::size_t most_chunk_expansion = 1 << 16;
-
-// Decodes zlib and gzip streams alike, each as a whole.
-bool inflate_all(std::span<const char> stored, std::span<char> chunk) {
-    constexpr int any_header = 15 + 32;
-    if (stored.size() > std::numeric_limits<uInt>::max()) return false;
-    z_stream stream{};
-    if (inflateInit2(&stream, any_header) != Z_OK) throw std::bad_alloc();
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(stored.data()));
-    stream.avail_in = static_cast<uInt>(stored.size());
-    std::size_t done = 0;
-    int result = Z_OK;
-    while (result == Z_OK) {
-        const std::size_t room =
-            std::min<std::size_t>(chunk.size() - done, std::numeric_limits<uInt>::max());
-        stream.next_out = reinterpret_cast<Bytef*>(chunk.data() + done);
-        stream.avail_out = static_cast<uInt>(room);
-        result = inflate(&stream, room == 0 ? Z_FINISH : Z_NO_FLUSH);
-        done += room - stream.avail_out;
-    }
-    inflateEnd(&stream);
-    return result == Z_STREAM_END && done == chunk.size();
-}
-
-bool decode_zstd(std::span<const char> stored, std::span<char> chunk) {
-    return ZSTD_decompress(chunk.data(), chunk.size(), stored.data(), stored.size()) ==
-           chunk.size();
-}
-
-// Decodes a block of LZ4. numcodecs puts the length before it, in four bytes.
-bool decode_lz4(std::span<const char> stored, std::span<char> chunk) {
-    std::uint32_t size = 0;
-    if (stored.size() < sizeof size) return false;
-    std::memcpy(&size, stored.data(), sizeof size);
-    if constexpr (std::endian::native == std::endian::big) size = __builtin_bswap32(size);
-    stored = stored.subspan(sizeof size);
-    return size == chunk.size() && std::in_range<int>(stored.size()) &&
-           LZ4_decompress_safe(stored.data(), chunk.data(), static_cast<int>(stored.size()),
-                               static_cast<int>(size)) == static_cast<int>(size);
-}
-
-bool decode_blosc(std::span<const char> stored, std::span<char> chunk) {
-    std::size_t size = 0;
-    if (blosc_cbuffer_validate(stored.data(), stored.size(), &size) != 0) return false;
-    if (size != chunk.size()) return false;
-    if (size == 0) return true;
-    return blosc_decompress_ctx(stored.data(), chunk.data(), chunk.size(), 1) ==
-           static_cast<int>(size);
-}
-
-constexpr ZarrCodec codecs[] = {{"zlib", inflate_all},
-                                {"gzip", inflate_all},
-                                {"zstd", decode_zstd},
-                                {"lz4", decode_lz4},
-                                {"blosc", decode_blosc}};
-
-// Returns the codec by its id; null if that is empty. Throws Error for others.
-const ZarrCodec* zarr_codec(const std::string& id, const std::string& name) {
-    if (id.empty()) return nullptr;
-    for (const ZarrCodec& codec : codecs)
-        if (id == codec.id) return &codec;
-    fail("{}: compressor: found \"{}\", expected blosc, zlib, gzip, zstd, lz4 or null", name,
-         one_line(id));
-}
-
-// Decodes a chunk of exactly chunk.size() bytes. Throws Error. `name`: its file, for messages.
-void decode_chunk(const ZarrCodec* codec, std::span<const char> stored, std::span<char> chunk,
-                  const std::string& name) {
-    if (codec == nullptr) {
-        if (stored.size() != chunk.size())
-            fail("{}: found {} bytes, expected {}", name, stored.size(), chunk.size());
-        std::memcpy(chunk.data(), stored.data(), chunk.size());
-    } else if (!codec->decode(stored, chunk)) {
-        fail("{}: damaged {} data in its {} bytes, or not of the {} bytes that a chunk has", name,
-             codec->id, stored.size(), chunk.size());
-    }
-}
-
-constexpr std::size_t most_zarr_axes = 16;
-
-const Json& zarray_member(const Json& document, const char* key, const std::string& name) {
-    const Json* const found = member_of(document, key);
-    if (found == nullptr) fail("{}: {}: found none, expected one", name, key);
-    return *found;
-}
-
-std::vector<std::int64_t> sizes_in(const Json& document, const char* key, const std::string& name) {
-    const Json& list = zarray_member(document, key, name);
-    std::vector<std::int64_t> sizes;
-    bool good = list.is_array() && !list.empty() && list.size() <= most_zarr_axes;
-    for (std::size_t i = 0; good && i < list.size(); ++i) {
-        good = list[i].is_number_integer() && list[i] >= 1 && list[i] <= (std::int64_t{1} << 40);
-        if (good) sizes.push_back(list[i].get<std::int64_t>());
-    }
-    if (!good) {
-        fail("{}: {}: found {}, expected a list of 1 to {} whole numbers above 0", name, key,
-             json_excerpt(list), most_zarr_axes);
-    }
-    return sizes;
-}
-
-// Reads NumPy's typestr: byte order, kind, bytes.
-void read_type(const Json& document, ZarrArray& array, const std::string& name) {
-    const Json& dtype = zarray_member(document, "dtype", name);
-    const std::string word = dtype.is_string() ? dtype.get<std::string>() : "";
-    const bool ordered = word.size() == 3 && std::string("<>|=").find(word[0]) != std::string::npos;
-    const auto type = numpy_type(std::string_view(word).substr(word.empty() ? 0 : 1));
-    if (ordered && type) {
-        array.type = *type;
-        const bool big = std::endian::native == std::endian::big;
-        array.swap = (word[0] == '<' && big) || (word[0] == '>' && !big);
-        return;
-    }
-    fail("{}: dtype: found {}, expected a number of 1, 2, 4 or 8 bytes, as in \"<u2\"", name,
-         json_excerpt(dtype));
-}
-
-double fill_value(const Json& document, const std::string& name) {
-    const Json& fill = zarray_member(document, "fill_value", name);
-    if (fill.is_null()) return 0;
-    if (fill.is_boolean()) return fill.get<bool>() ? 1 : 0;
-    if (fill.is_number()) return fill.get<double>();
-    if (fill == "NaN") return std::numeric_limits<double>::quiet_NaN();
-    if (fill == "Infinity") return std::numeric_limits<double>::infinity();
-    if (fill == "-Infinity") return -std::numeric_limits<double>::infinity();
-    fail("{}: fill_value: found {}, expected a number", name, json_excerpt(fill));
-}
-
-std::string compressor_id(const Json& document, const std::string& name) {
-    const Json& compressor = zarray_member(document, "compressor", name);
-    if (compressor.is_null()) return "";
-    const Json* const id = member_of(compressor, "id");
-    if (id == nullptr || !id->is_string())
-        fail("{}: compressor: found {}, expected one with an \"id\"", name,
-             json_excerpt(compressor));
-    return id->get<std::string>();
-}
-
-}  // namespace
-
-std::int64_t ZarrArray::chunk_samples() const {
-    std::int64_t samples = 1;
-    for (const std::int64_t edge : chunks) samples *= edge;
-    return samples;
-}
-
-ZarrArray read_zarray(const std::filesystem::path& folder) {
-    const std::filesystem::path file = folder / ".zarray";
-    const std::string name = file.string();
-    expect_allowed(file);
-    const Json document = load_json(file);
-    if (!document.is_object())
-        fail("{}: found {}, expected an object", name, json_excerpt(document));
-    if (const Json& format = zarray_member(document, "zarr_format", name); format != 2)
-        fail("{}: zarr_format: found {}, expected 2", name, json_excerpt(format));
-    ZarrArray array;
-    array.folder = folder;
-    array.shape = sizes_in(document, "shape", name);
-    array.chunks = sizes_in(document, "chunks", name);
-    if (array.chunks.size() != array.shape.size()) {
-        fail("{}: chunks: found {} sizes, expected {}, as in its shape", name, array.chunks.size(),
-             array.shape.size());
-    }
-    read_type(document, array, name);
-    std::int64_t bytes = static_cast<std::int64_t>(bytes_of(array.type));
-    bool overflow = false;
-    for (const std::int64_t edge : array.chunks)
-        overflow |= __builtin_mul_overflow(bytes, edge, &bytes);
-    if (overflow || bytes > std::numeric_limits<std::int32_t>::max())
-        fail("{}: chunks: found more than 2 GiB in each, expected fewer", name);
-    const Json& order = zarray_member(document, "order", name);
-    if (order != "C" && order != "F")
-        fail("{}: order: found {}, expected \"C\" or \"F\"", name, json_excerpt(order));
-    array.fortran = order == "F";
-    array.fill = fill_value(document, name);
-    array.codec = zarr_codec(compressor_id(document, name), name);
-    const Json* const filters = member_of(document, "filters");
-    if (filters != nullptr && !filters->is_null() && !filters->empty())
-        fail("{}: filters: found {}, expected null", name, json_excerpt(*filters));
-    if (const Json* const separator = member_of(document, "dimension_separator")) {
-        if (*separator != "." && *separator != "/") {
-            fail("{}: dimension_separator: found {}, expected \".\" or \"/\"", name,
-                 json_excerpt(*separator));
-        }
-        array.separator = separator->get<std::string>()[0];
-    }
-    return array;
-}
 
 namespace {
 
@@ -300,6 +91,7 @@ ZarrChunks::ZarrChunks(ZarrArray array, ZarrSelection selection)
             size_[i] = array_.shape[at];
             edge_[i] = array_.chunks[at];
             counts_[i] = array_.chunk_count(at);
+            each_file_[i] = array_.files[at] / array_.chunks[at];
         }
         if (__builtin_mul_overflow(total, counts_[i], &total)) total = most_chunks + 1;
     }
@@ -308,18 +100,97 @@ ZarrChunks::ZarrChunks(ZarrArray array, ZarrSelection selection)
              counts_[1], counts_[0], most_chunks);
     }
     selected_bytes();
-    states_.reserve(static_cast<std::size_t>(total));
-    for (std::int64_t chunk = 0; chunk < total; ++chunk) {
-        if ((chunk & 0xfff) == 0) check_interrupt();
-        const FileNow file = file_now(chunk);
-        states_.push_back(file.state);
-        stored_ += file.bytes;
-        files_.add(&file, sizeof file);
+    places_.resize(static_cast<std::size_t>(total));
+    for (std::int64_t z = 0; z < counts_[0]; z += each_file_[0]) {
+        for (std::int64_t y = 0; y < counts_[1]; y += each_file_[1]) {
+            check_interrupt();
+            for (std::int64_t x = 0; x < counts_[2]; x += each_file_[2]) find_chunks({z, y, x});
+        }
     }
     if (stored_ == 0) {
         fail("{}: found no chunk, expected files as {}", name,
-             file_of(0).lexically_relative(array_.folder).string());
+             file_of({}).lexically_relative(array_.folder).string());
     }
+    if (missing() > 0 && !array_.fill) {
+        fail("{}: fill_value: found {}, expected one that {} holds", array_.header_name(),
+             array_.fill_text, name_of(array_.type));
+    }
+}
+
+// Finds the chunks of the file of which `first` is the first chunk.
+void ZarrChunks::find_chunks(const Triple& first) {
+    const std::filesystem::path file = file_of(first);
+    const ZarrFileState now = array_.store.state(file);
+    stored_ += now.bytes;
+    files_.add(&now, sizeof now);
+    if (now.state == 0) return;
+    ByteBuffer index;
+    if (array_.shards) index = read_index(file, now.bytes);
+    Triple end{};
+    for (std::size_t i = 0; i < 3; ++i) end[i] = std::min(counts_[i], first[i] + each_file_[i]);
+    for (std::int64_t z = first[0]; z < end[0]; ++z) {
+        for (std::int64_t y = first[1]; y < end[1]; ++y) {
+            for (std::int64_t x = first[2]; x < end[2]; ++x) {
+                Place& here =
+                    places_[static_cast<std::size_t>((z * counts_[1] + y) * counts_[2] + x)];
+                here = {now.state, 0, now.bytes};
+                if (!array_.shards) continue;
+                std::uint64_t entry[2];
+                const std::uint64_t number = number_in_file({z, y, x});
+                std::memcpy(entry, index.data() + number * sizeof entry, sizeof entry);
+                here.begin = entry[0];
+                here.bytes = entry[1];
+                const bool is_empty = here.begin == nowhere && here.bytes == nowhere;
+                if (!is_empty && (here.begin > now.bytes || here.bytes > now.bytes - here.begin)) {
+                    fail(
+                        "{}: chunk {}: found {} bytes from byte {} on, expected them in the {} "
+                        "of the file",
+                        file.string(), number, here.bytes, here.begin, now.bytes);
+                }
+            }
+        }
+    }
+}
+
+// Reads the index of a file with several chunks (sharding codec, "Binary shard format"): begin and
+// bytes of each, 64 bits each, here in native byte order.
+ByteBuffer ZarrChunks::read_index(const std::filesystem::path& file,
+                                  std::uint64_t file_bytes) const {
+    constexpr std::uint64_t entry_bytes = 16, checksum_bytes = 4;
+    const ZarrShards& shards = *array_.shards;
+    std::uint64_t count = 1;
+    bool overflow = false;
+    for (std::size_t axis = 0; axis < array_.files.size(); ++axis) {
+        overflow |= __builtin_mul_overflow(
+            count, static_cast<std::uint64_t>(array_.files[axis] / array_.chunks[axis]), &count);
+    }
+    const std::uint64_t sums = shards.index_codecs.size() * checksum_bytes;
+    if (overflow || count > file_bytes / entry_bytes || count * entry_bytes + sums > file_bytes) {
+        fail("{}: found {} bytes, which cannot hold the index of the {} chunks of a file",
+             file.string(), file_bytes, overflow ? "very many" : std::to_string(count));
+    }
+    const std::uint64_t bytes = count * entry_bytes + sums;
+    const ByteBuffer stored =
+        array_.store.read(file, shards.index_at_end ? file_bytes - bytes : 0, bytes);
+    ByteBuffer index(count * entry_bytes);
+    decode_chunk(shards.index_codecs, stored.text(), index.span(), file.string() + ": index");
+    if (shards.swap_index)
+        swap_bytes_alone(index.data(), static_cast<std::int64_t>(2 * count), sizeof count);
+    return index;
+}
+
+// Returns a chunk's number in the index of its file.
+std::uint64_t ZarrChunks::number_in_file(const Triple& index) const {
+    std::uint64_t number = 0;
+    for (const std::size_t axis : array_.shards->axes) {
+        const std::int64_t count = array_.files[axis] / array_.chunks[axis];
+        std::int64_t here = selection_.index[axis] / array_.chunks[axis];
+        for (std::size_t i = 0; i < 3; ++i)
+            if (selection_.axes[i] == static_cast<int>(axis)) here = index[i];
+        number =
+            number * static_cast<std::uint64_t>(count) + static_cast<std::uint64_t>(here % count);
+    }
+    return number;
 }
 
 void ZarrChunks::check_plausible_size() const {
@@ -335,7 +206,7 @@ std::size_t ZarrChunks::selected_bytes() const {
 }
 
 std::int64_t ZarrChunks::missing() const {
-    return std::ranges::count(states_, std::uint64_t{0});
+    return std::ranges::count(places_, nowhere, &Place::begin);
 }
 
 std::string ZarrChunks::selection_text() const {
@@ -344,36 +215,23 @@ std::string ZarrChunks::selection_text() const {
 
 void ZarrChunks::set_expected_hashes(std::vector<std::uint64_t> hashes) {
     for (std::size_t chunk = 0; chunk < hashes.size(); ++chunk) {
-        if (hashes[chunk] != no_chunk && states_[chunk] == 0)
-            fail("{}: is missing", file_of(static_cast<std::int64_t>(chunk)).string());
+        if (const auto number = static_cast<std::int64_t>(chunk);
+            hashes[chunk] != no_chunk && !has(number))
+            fail("{}: is missing", file_of(index_of(number)).string());
     }
     hashes_ = std::move(hashes);
 }
 
-ZarrChunks::FileNow ZarrChunks::file_now(std::int64_t chunk) const {
-    const std::filesystem::path file = file_of(chunk);
-    expect_allowed(file);
-    struct stat found {};
-    if (stat(file.c_str(), &found) != 0) return {};
-    ContentHash hash;
-    const std::int64_t words[] = {found.st_size, found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
-    hash.add(words, sizeof words);
-    return {hash.word() | 1,  // not 0
-            static_cast<std::uint64_t>(found.st_size), static_cast<std::uint64_t>(found.st_ino),
-            found.st_ctim.tv_sec * std::int64_t{1'000'000'000} + found.st_ctim.tv_nsec};
-}
-
-ZarrChunks::Triple ZarrChunks::place_of(std::int64_t chunk) const {
+ZarrChunks::Triple ZarrChunks::index_of(std::int64_t chunk) const {
     return {chunk / (counts_[1] * counts_[2]), chunk / counts_[2] % counts_[1], chunk % counts_[2]};
 }
 
-std::filesystem::path ZarrChunks::file_of(std::int64_t chunk) const {
-    const Triple place = place_of(chunk);
-    std::string name;
+std::filesystem::path ZarrChunks::file_of(const Triple& index) const {
+    std::string name = array_.key_begin;
     for (std::size_t axis = 0; axis < array_.shape.size(); ++axis) {
-        std::int64_t number = selection_.index[axis] / array_.chunks[axis];
+        std::int64_t number = selection_.index[axis] / array_.files[axis];
         for (std::size_t i = 0; i < 3; ++i) {
-            if (selection_.axes[i] == static_cast<int>(axis)) number = place[i];
+            if (selection_.axes[i] == static_cast<int>(axis)) number = index[i] / each_file_[i];
         }
         if (axis > 0) name += array_.separator;
         name += std::to_string(number);
@@ -384,65 +242,55 @@ std::filesystem::path ZarrChunks::file_of(std::int64_t chunk) const {
 // Returns the bytes between neighbours along an axis in a chunk.
 std::size_t ZarrChunks::step_of(std::size_t axis) const {
     std::size_t step = bytes_;
-    for (std::size_t i = 0; i < array_.chunks.size(); ++i) {
-        if (array_.fortran ? i < axis : i > axis)
-            step *= static_cast<std::size_t>(array_.chunks[i]);
-    }
+    for (std::size_t i = array_.layout.size(); array_.layout[--i] != axis;)
+        step *= static_cast<std::size_t>(array_.chunks[array_.layout[i]]);
     return step;
 }
 
 ByteBuffer ZarrChunks::decoded(std::int64_t chunk) const {
-    const std::filesystem::path file = file_of(chunk);
+    const std::string name = file_of(index_of(chunk)).string();
+    const Place& here = place(chunk);
     ByteBuffer samples(chunk_bytes());
-    if (file_now(chunk).state != state(chunk))
-        fail("{}: the file was changed while the array was read", file.string());
-    if (state(chunk) == 0) {
+    if (array_.store.state(name).state != here.state)
+        fail("{}: the file was changed while the array was read", name);
+    if (!has(chunk)) {
         fill(samples);
         return samples;
     }
-    const ByteBuffer stored = read_large_file(file);
+    // No codec makes its data longer than this.
+    if (here.bytes / 2 > samples.size() + 4096)
+        fail("{}: found {} bytes, expected {} of a chunk at most", name, here.bytes,
+             samples.size());
+    const ByteBuffer stored =
+        array_.shards ? array_.store.read(name, here.begin, here.bytes) : array_.store.read(name);
     if (!hashes_.empty() &&
         hash_of_chunk(stored.text()) != hashes_[static_cast<std::size_t>(chunk)])
         fail(
             "{}: is damaged: it has other bytes than were written; lamina index --bricks makes "
             "the copy again",
-            file.string());
+            name);
     if (samples.size() / most_chunk_expansion > stored.size()) {
-        fail("{}: found {} bytes, which cannot hold the {} of a chunk", file.string(),
-             stored.size(), samples.size());
+        fail("{}: found {} bytes, which cannot hold the {} of a chunk", name, stored.size(),
+             samples.size());
     }
-    decode_chunk(array_.codec, stored.text(), samples.span(), file.string());
+    ByteBuffer halves(array_.is_half ? samples.size() / 2 : 0);
+    ByteBuffer& decoded = array_.is_half ? halves : samples;
+    decode_chunk(array_.codecs, stored.text(), decoded.span(), name);
+    if (array_.swap)
+        swap_bytes_alone(decoded.data(), array_.chunk_samples(), array_.stored_bytes());
+    for (std::size_t i = 0; i < halves.size() / 2; ++i) {
+        std::uint16_t half = 0;
+        std::memcpy(&half, halves.data() + i * sizeof half, sizeof half);
+        const float value = widened_half(half);
+        std::memcpy(samples.data() + i * sizeof value, &value, sizeof value);
+    }
     return samples;
 }
 
-template <typename Value>
-Value ZarrChunks::fill_as() const {
-    if constexpr (std::is_floating_point_v<Value>) {
-        return static_cast<Value>(array_.fill);
-    } else {
-        // A fill value beyond the type's range is no value of a sample.
-        const double most = static_cast<double>(std::numeric_limits<Value>::max());
-        const double least = static_cast<double>(std::numeric_limits<Value>::min());
-        if (!(array_.fill >= least && array_.fill <= most)) {
-            fail("{}: fill_value: found {}, expected one that {} holds",
-                 (array_.folder / ".zarray").string(), array_.fill, name_of(array_.type));
-        }
-        return array_.fill >= most ? std::numeric_limits<Value>::max()
-                                   : static_cast<Value>(array_.fill);
-    }
-}
-
-// Fills a chunk with the fill value, in the byte order of the file.
+// Fills a chunk with the fill value.
 void ZarrChunks::fill(ByteBuffer& samples) const {
-    with_type(array_.type, [&](auto zero) {
-        using Value = decltype(zero);
-        Value value = fill_as<Value>();
-        char word[sizeof(Value)];
-        std::memcpy(word, &value, sizeof(Value));
-        if (array_.swap) std::reverse(word, word + sizeof(Value));
-        for (std::size_t at = 0; at < samples.size(); at += sizeof(Value))
-            std::memcpy(samples.data() + at, word, sizeof(Value));
-    });
+    for (std::size_t at = 0; at < samples.size(); at += bytes_)
+        std::memcpy(samples.data() + at, array_.fill->data(), bytes_);
 }
 
 void ZarrChunks::copy(const ByteBuffer& samples, std::int64_t chunk, const SampleBox& box,
@@ -453,11 +301,11 @@ void ZarrChunks::copy(const ByteBuffer& samples, std::int64_t chunk, const Sampl
         from +=
             static_cast<std::size_t>(selection_.index[axis] % array_.chunks[axis]) * step_of(axis);
     }
-    const Triple place = place_of(chunk);
+    const Triple index = index_of(chunk);
     Triple begin{}, count{}, into{};
     std::array<std::size_t, 3> step{};
     for (std::size_t i = 0; i < 3; ++i) {
-        const std::int64_t first = box.first[2 - i], edge = place[i] * edge_[i];
+        const std::int64_t first = box.first[2 - i], edge = index[i] * edge_[i];
         begin[i] = std::max(first, edge);
         count[i] =
             std::min(first + box.size[2 - i], std::min(edge + edge_[i], size_[i])) - begin[i];
@@ -487,19 +335,21 @@ void ZarrChunks::copy_samples(const char* from, std::size_t step, char* to,
     with_type(array_.type, [&](auto zero) { copy_row<decltype(zero)>(from, step, to, count); });
 }
 
-ZarrSource::ZarrSource(ZarrChunks chunks)
+ZarrSource::ZarrSource(ZarrChunks chunks, PackedValues values)
     : ChunkedSource(x_first(chunks.size()), x_first(chunks.edge()), bytes_of(chunks.array().type)),
       chunks_(std::move(chunks)),
-      header_(FileState::of(chunks_.array().folder / ".zarray")) {}
+      values_(std::move(values)),
+      header_(FileState::of(
+          chunks_.array().store.on_disk(chunks_.array().folder / chunks_.array().header))) {}
 
 void ZarrSource::decode(std::int64_t chunk, const SampleBox& box, void* to) const {
     chunks_.copy(chunks_.decoded(chunk), chunk, box, static_cast<char*>(to));
-    const ZarrArray& array = chunks_.array();
-    if (array.swap) swap_bytes_alone(to, box.count(), bytes_of(array.type));
+    if (values_.can_be_missing()) values_.mark(box.count(), false, to, to);
 }
 
 bool ZarrSource::is_zero(std::int64_t chunk) const {
-    return chunks_.array().fill == 0 && chunks_.state(chunk) == 0;
+    const ZarrArray& array = chunks_.array();
+    return !chunks_.has(chunk) && !values_.can_be_missing() && *array.fill == std::array<char, 8>{};
 }
 
 std::string ZarrSource::name() const {

@@ -11,49 +11,13 @@
 #include <vector>
 
 #include "base/content_hash.h"
-#include "base/error.h"
 #include "base/input_file.h"
-#include "base/json_text.h"
-#include "base/value_type.h"
 #include "volume/sample_source.h"
+#include "volume_files/packed_values.h"
 #include "volume_files/sample_sources.h"
+#include "volume_files/zarr_array.h"
 
 namespace lamina {
-
-struct ZarrCodec;
-
-// Returns a member of an object, or null if it has none of that name or is no object.
-inline const nlohmann::json* member_of(const nlohmann::json& object, const char* key) {
-    const auto found = object.is_object() ? object.find(key) : object.end();
-    return found == object.end() ? nullptr : &*found;
-}
-
-// Returns a value as messages show it: one short line.
-inline std::string json_excerpt(const nlohmann::json& value) {
-    return one_line(json_text(value).substr(0, 100));
-}
-
-// The contents of the .zarray of a Zarr v2 array.
-struct ZarrArray {
-    std::filesystem::path folder;
-    std::vector<std::int64_t> shape, chunks;  // along each axis, 1 or more; the last is the fastest
-    ValueType type = ValueType::uint8;
-    bool swap = false;     // not in this machine's byte order
-    bool fortran = false;  // the first axis is the fastest in a chunk
-    double fill = 0;
-    // Compression of the chunks (the "compressor"); null: none.
-    const ZarrCodec* codec = nullptr;
-    char separator = '.';  // between the indices in a chunk's file name
-
-    std::int64_t chunk_count(std::size_t axis) const {
-        return (shape[axis] + chunks[axis] - 1) / chunks[axis];
-    }
-    std::int64_t chunk_samples() const;
-};
-
-// Reads a folder's .zarray. Throws Error if the file is missing or invalid, or if lamina cannot
-// read arrays of this kind.
-ZarrArray read_zarray(const std::filesystem::path& folder);
 
 // Selects a volume from an array: says which of its axes are z, y and x (-1: the array has no such
 // axis, and the volume has one sample there), and gives one index on each other axis.
@@ -97,11 +61,8 @@ class ZarrChunks {
         return static_cast<std::size_t>(array_.chunk_samples()) * bytes_;
     }
 
-    // Returns a hash of the size and time that a chunk's file had when this was made; 0 if it had
-    // none, so that all its samples have the fill value.
-    std::uint64_t state(std::int64_t chunk) const {
-        return states_[static_cast<std::size_t>(chunk)];
-    }
+    // Tells if a chunk was there when this was made; if not, all its samples have the fill value.
+    bool has(std::int64_t chunk) const { return place(chunk).begin != nowhere; }
     // Returns a hash of the state of all chunk files. Copies of the files give another hash, even
     // with equal sizes and times.
     std::uint64_t files() const { return files_.word(); }
@@ -113,42 +74,50 @@ class ZarrChunks {
     void check_plausible_size() const;
     std::string selection_text() const;  // identifies what is selected
 
-    // Returns a chunk's samples, decoded, in the byte order of the file. Throws Error if it is
-    // damaged, has another hash, or has changed since this was made.
+    // Returns a chunk's samples, decoded, in native byte order. Throws Error if it is damaged, has
+    // another hash, or has changed since this was made.
     ByteBuffer decoded(std::int64_t chunk) const;
     // Copies the samples of a decoded chunk that lie in a box to that box at `to`, x fastest.
     void copy(const ByteBuffer& samples, std::int64_t chunk, const SampleBox& box, char* to) const;
 
   private:
-    Triple place_of(std::int64_t chunk) const;
-    std::filesystem::path file_of(std::int64_t chunk) const;
-    // The present state of a chunk's file; all 0 if there is none. `state`: as state() returns it.
-    struct FileNow {
-        std::uint64_t state = 0, bytes = 0, inode = 0;
-        std::int64_t changed = 0;  // nanoseconds
+    static constexpr std::uint64_t nowhere = ~std::uint64_t{0};
+    // The bytes of a chunk in its file, which had this state; state 0: there is no such file.
+    struct Place {
+        std::uint64_t state = 0, begin = nowhere, bytes = 0;
     };
-    FileNow file_now(std::int64_t chunk) const;
+    const Place& place(std::int64_t chunk) const {
+        return places_[static_cast<std::size_t>(chunk)];
+    }
+    Triple index_of(std::int64_t chunk) const;
+    std::filesystem::path file_of(const Triple& index) const;
+    void find_chunks(const Triple& first);
+    ByteBuffer read_index(const std::filesystem::path& file, std::uint64_t file_bytes) const;
+    std::uint64_t number_in_file(const Triple& index) const;
     std::size_t step_of(std::size_t axis) const;
     void fill(ByteBuffer& samples) const;
-    template <typename Value>
-    Value fill_as() const;
     void copy_samples(const char* from, std::size_t step, char* to, std::int64_t count) const;
 
     ZarrArray array_;
     ZarrSelection selection_;
     std::size_t bytes_;  // of a sample
     Triple size_{1, 1, 1}, edge_{1, 1, 1}, counts_{1, 1, 1};
-    std::vector<std::uint64_t> states_, hashes_;
+    Triple each_file_{1, 1, 1};  // chunks of a file
+    std::vector<Place> places_;
+    std::vector<std::uint64_t> hashes_;
     ContentHash files_;
     std::uint64_t stored_ = 0;  // bytes of all files
 };
 
 class ZarrSource : public ChunkedSource {
   public:
-    explicit ZarrSource(ZarrChunks chunks);
+    // `values`: missing ones become NaN, if there are any, in the array's type.
+    explicit ZarrSource(ZarrChunks chunks, PackedValues values = {});
 
     void check_unchanged() const override { header_.check_unchanged(); }
-    std::filesystem::path main_file() const override { return chunks_.array().folder; }
+    std::filesystem::path main_file() const override {
+        return chunks_.array().store.on_disk(chunks_.array().folder);
+    }
     std::string name() const override;
     std::string identity() const override;
 
@@ -157,6 +126,7 @@ class ZarrSource : public ChunkedSource {
     bool is_zero(std::int64_t chunk) const override;
 
     ZarrChunks chunks_;
+    PackedValues values_;
     FileState header_;
 };
 

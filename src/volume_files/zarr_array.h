@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/value_type.h"
+#include "volume_files/zarr_codecs.h"
+#include "volume_files/zarr_store.h"
+
+namespace lamina {
+
+// Chunks that lie together in one file (sharding codec, version 1.0). An index says where each
+// begins and how many bytes it has.
+struct ZarrShards {
+    std::vector<std::size_t> axes;  // of the array, in the index from the slowest to the fastest
+    bool index_at_end = true, swap_index = false;
+    std::vector<const ZarrCodec*> index_codecs;  // checksums
+};
+
+// An array, as .zarray (version 2) or zarr.json (version 3) describes it.
+struct ZarrArray {
+    ZarrStore store;
+    std::filesystem::path folder;
+    const char* header = ".zarray";
+    // Along each axis, 1 or more. `files`: samples of a file, which has one chunk, or, with shards,
+    // a multiple of chunks along each axis.
+    std::vector<std::int64_t> shape, chunks, files;
+    ValueType type = ValueType::uint8;
+    bool is_half = false;             // floats of 16 bits, which become float32
+    bool swap = false;                // stored in the other byte order than this machine's
+    std::vector<std::size_t> layout;  // axes in a chunk, from the slowest to the fastest
+    // The sample, as it lies in memory, of chunks that are not there; nothing if no sample of this
+    // type has the value that the file says.
+    std::optional<std::array<char, 8>> fill;
+    std::string fill_text;
+    std::vector<const ZarrCodec*> codecs;  // of a chunk, in the order in which they encode
+    std::optional<ZarrShards> shards;
+    std::string key_begin;        // before the indices in the name of a file
+    char separator = '.';         // between the indices
+    nlohmann::json attributes;    // an object
+    std::vector<double> missing;  // values of missing samples, unless the attributes name others
+    std::vector<std::string> axis_names;  // empty, or one for each axis; axes without one have ""
+
+    std::string header_name() const { return (folder / header).string(); }
+    std::size_t stored_bytes() const { return is_half ? 2 : bytes_of(type); }  // of a sample
+    std::int64_t chunk_count(std::size_t axis) const {
+        return (shape[axis] + chunks[axis] - 1) / chunks[axis];
+    }
+    std::int64_t chunk_samples() const;
+};
+
+// Returns the attributes that .zattrs has in a folder (version 2); an empty object if there are
+// none. Throws Error.
+nlohmann::json zarr_attributes(const ZarrStore& store, const std::filesystem::path& folder);
+
+// Reads the array in a folder: zarr.json, else .zarray. Throws Error if they are missing or
+// invalid, or if lamina cannot read arrays of this kind.
+ZarrArray read_zarr_array(const ZarrStore& store, const std::filesystem::path& folder);
+
+// Reads the parts of it that only one of the versions has.
+ZarrArray read_zarray(const ZarrStore& store, const std::filesystem::path& folder);
+ZarrArray read_zarr_json(const ZarrStore& store, const std::filesystem::path& folder);
+
+// Return what headers of both versions have: a member, whole numbers above 0, and one of two words,
+// or `otherwise` if there is none and this is not null. Throw Error, which begins with `name`, the
+// file's.
+const nlohmann::json& zarr_member(const nlohmann::json& object, const char* key,
+                                  const std::string& name);
+std::vector<std::int64_t> zarr_sizes(const nlohmann::json& object, const char* key,
+                                     const std::string& name);
+std::string zarr_word(const nlohmann::json& object, const char* key,
+                      const std::array<const char*, 2>& words, const char* otherwise,
+                      const std::string& name);
+// Set the fill value, type first, and check the size of chunks.
+void set_fill(ZarrArray& array, const nlohmann::json& fill);
+void expect_small_chunks(const ZarrArray& array);
+
+}  // namespace lamina
