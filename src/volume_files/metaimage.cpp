@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "volume_files/numbered_files.h"
@@ -133,7 +134,30 @@ class MetaImage {
         : path_(path),
           fields_(path),
           dimensions_(static_cast<std::size_t>(fields_.whole("NDims", 3, 4))),
-          sizes_(fields_.wholes("DimSize", dimensions_, 1, largest_size)) {}
+          sizes_(fields_.wholes("DimSize", dimensions_, 1, largest_size)) {
+        if (fields_.text("ObjectType", "Image") != "Image") fields_.reject("ObjectType", "Image");
+        if (fields_.text("HeaderSizePerSlice", "0") != "0")
+            fields_.reject("HeaderSizePerSlice", "0");
+    }
+
+    void say_what_is_not_used() const {
+        const std::vector<double> zeros(dimensions_, 0);
+        if (numbers_of({"CenterOfRotation"}, zeros) == zeros) return;
+        warn(
+            fmt::format("{}: CenterOfRotation: found {}, which is not used: as in ITK, Offset is "
+                        "the place of the first sample",
+                        fields_.file(), one_line(fields_.text("CenterOfRotation").substr(0, 80))));
+    }
+
+    // Fills in what the header says about channels and times; the file must have them.
+    void fill(VolumeContents& contents) const {
+        const std::int64_t channels = channel_count();
+        if (channels > 1) contents.channels.resize(static_cast<std::size_t>(channels));
+        if (dimensions_ == 4 && sizes_[3] > 1)
+            contents.times.resize(static_cast<std::size_t>(sizes_[3]));
+        // ITK and VTK write colours so, and vectors as other types.
+        contents.is_colour = (channels == 3 || channels == 4) && type() == ValueType::uint8;
+    }
 
     Grid grid() const {
         Grid grid = plain_grid({sizes_[0], sizes_[1], sizes_[2]});
@@ -153,6 +177,8 @@ class MetaImage {
         const std::string orientation = fields_.text("AnatomicalOrientation");
         if (orientation.find_first_of("RLAPIS") != std::string::npos)
             grid.axes = WorldAxes::left_posterior_superior;
+        if (const std::string word = fields_.text("DistanceUnits"); word != "?")
+            grid.unit = unit_word(word);
         check_grid(fields_.file(), grid, {"TransformMatrix", "Offset"});
         return grid;
     }
@@ -161,9 +187,7 @@ class MetaImage {
         StoredData data;
         data.path = path_;
         data.type = type();
-        const std::int64_t channels = fields_.has("ElementNumberOfChannels")
-                                          ? fields_.whole("ElementNumberOfChannels", 1, 65536)
-                                          : 1;
+        const std::int64_t channels = channel_count();
         data.axes = axes(channels, request);
         if (!fields_.flag("BinaryData", true))
             data.encoding = DataEncoding::ascii;
@@ -171,11 +195,19 @@ class MetaImage {
             data.encoding = DataEncoding::gzip;
         const bool big_endian = fields_.flag("BinaryDataByteOrderMSB", false);
         set_byte_order(data, fields_.flag("ElementByteOrderMSB", big_endian));
+        data.scale = numbers_of({"ElementToIntensityFunctionSlope"}, {1})[0];
+        data.shift = numbers_of({"ElementToIntensityFunctionOffset"}, {0})[0];
+        if (data.scale == 0) fields_.reject("ElementToIntensityFunctionSlope", "a number but 0");
         place(data, channels > 1);
         return data;
     }
 
   private:
+    std::int64_t channel_count() const {
+        constexpr const char* key = "ElementNumberOfChannels";
+        return fields_.has(key) ? fields_.whole(key, 1, 65536) : 1;
+    }
+
     ValueType type() const {
         std::string word = fields_.text("ElementType");
         if (word.ends_with("_ARRAY")) word.resize(word.size() - 6);
@@ -216,7 +248,9 @@ class MetaImage {
         std::optional<std::size_t> each;  // axes that one file holds
         const auto set_each = [&](std::size_t word) {
             if (words.size() <= word) return;
-            const auto axes = whole_number(words[word]);
+            std::string_view digits = words[word];  // "2" or, as MetaIO has it, "2D"
+            if (digits.ends_with('D')) digits.remove_suffix(1);
+            const auto axes = whole_number(digits);
             if (!axes || *axes < 1 || *axes > static_cast<std::int64_t>(dimensions_))
                 fields_.reject("ElementDataFile", "a number of axes in one file");
             each = static_cast<std::size_t>(*axes) + (has_channels ? 1 : 0);
@@ -281,7 +315,10 @@ bool is_metaimage(const Path& path) {
 Volume open_metaimage(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
     const MetaImage image(path);
     const Grid grid = image.grid();
-    return open_stored(grid, image.data(request), use);
+    image.say_what_is_not_used();
+    const Volume volume = open_stored(grid, image.data(request), use);
+    if (use.contents != nullptr) image.fill(*use.contents);
+    return volume;
 }
 
 std::vector<Path> files_of_metaimage(const Path& path) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 
@@ -27,6 +28,8 @@ struct NiftiHeader {
     std::int64_t data_offset = 0;
     double slope = 0, intercept = 0;
     std::int64_t qform_code = 0, sform_code = 0;
+    std::int64_t units = 0, intent = 0;  // xyzt_units, intent_code
+    double first_time = 0;               // toffset
     std::array<double, 3> quaternion{}, offset{};
     std::array<std::array<double, 4>, 3> srow{};
 };
@@ -66,12 +69,15 @@ class HeaderBytes {
 // Reads the fields at the offsets of nifti1.h, struct nifti_1_header.
 void read_fields_1(const HeaderBytes& bytes, NiftiHeader& header) {
     bytes.fill<std::int16_t>(header.dim, 40);
+    header.intent = bytes.at<std::int16_t>(68);
     header.datatype = bytes.at<std::int16_t>(70);
     bytes.fill<float>(header.pixdim, 76);
     const auto offset = static_cast<double>(bytes.at<float>(108));
     header.data_offset = offset >= 0 && offset < 1e15 ? static_cast<std::int64_t>(offset) : -1;
     header.slope = static_cast<double>(bytes.at<float>(112));
     header.intercept = static_cast<double>(bytes.at<float>(116));
+    header.units = bytes.at<std::uint8_t>(123);
+    header.first_time = static_cast<double>(bytes.at<float>(136));
     header.qform_code = bytes.at<std::int16_t>(252);
     header.sform_code = bytes.at<std::int16_t>(254);
     bytes.fill<float>(header.quaternion, 256);
@@ -89,6 +95,9 @@ void read_fields_2(const HeaderBytes& bytes, NiftiHeader& header) {
     header.intercept = bytes.at<double>(184);
     header.qform_code = bytes.at<std::int32_t>(344);
     header.sform_code = bytes.at<std::int32_t>(348);
+    header.first_time = bytes.at<double>(216);
+    header.units = bytes.at<std::int32_t>(500);
+    header.intent = bytes.at<std::int32_t>(504);
     bytes.fill<double>(header.quaternion, 352);
     bytes.fill<double>(header.offset, 376);
     for (std::size_t row = 0; row < 3; ++row) bytes.fill<double>(header.srow[row], 400 + 32 * row);
@@ -161,6 +170,18 @@ std::array<glm::dvec3, 3> rotation_of(const std::array<double, 3>& quaternion) {
             glm::dvec3(2 * (b * d + a * c), 2 * (c * d - a * b), a * a + d * d - c * c - b * b)};
 }
 
+// Returns |pixdim[i]|, 1 if it is 0, as nibabel does; a warning says it, because nifti1.h expects
+// numbers above 0.
+double voxel_length(const NiftiHeader& header, std::size_t i) {
+    const double found = header.pixdim[i];
+    const double length = found == 0 ? 1 : std::abs(found);
+    if (!(found > 0) && length > 0) {
+        warn(fmt::format("{}: pixdim[{}]: found {}, expected a number above 0: {} is taken",
+                         header.path.string(), i, found, length));
+    }
+    return length;
+}
+
 void place_by_sform(const NiftiHeader& header, Grid& grid) {
     for (int row = 0; row < 3; ++row) {
         const auto& values = header.srow[static_cast<std::size_t>(row)];
@@ -170,10 +191,17 @@ void place_by_sform(const NiftiHeader& header, Grid& grid) {
 }
 
 void place_by_qform(const NiftiHeader& header, Grid& grid) {
+    double squares = 0;
+    for (const double part : header.quaternion) squares += part * part;
+    constexpr double most = 1.001;  // rounding of three float32 gives less than 1.000001
+    if (!(squares <= most)) {
+        fail("{}: quatern_b, _c, _d: found squares that add up to {}, expected at most 1",
+             header.path.string(), squares);
+    }
     const auto columns = rotation_of(header.quaternion);
     const double handedness = header.pixdim[0] < 0 ? -1 : 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double length = header.pixdim[axis + 1] * (axis == 2 ? handedness : 1);
+        const double length = voxel_length(header, axis + 1) * (axis == 2 ? handedness : 1);
         grid.step[axis] = length * columns[axis];
         grid.origin[static_cast<int>(axis)] = header.offset[axis];
     }
@@ -199,23 +227,40 @@ std::optional<NiftiHeader> read_nifti_header(const Path& path) {
     return {};
 }
 
+// Places the grid by the sform. Returns false, and warns, if that is bad and there is a qform.
+bool is_placed_by_sform(const NiftiHeader& header, Grid& grid) {
+    if (header.sform_code <= 0) return false;
+    try {
+        Grid placed = grid;
+        place_by_sform(header, placed);
+        check_grid(header.path.string(), placed, {"sform (srow_x, srow_y, srow_z)", "srow"});
+        grid = placed;
+        return true;
+    } catch (const Error& error) {
+        if (header.qform_code <= 0) throw;
+        warn(fmt::format("{}: the qform is taken", error.what()));
+        return false;
+    }
+}
+
 // Returns the grid of the first three axes: placed by sform, else by qform, and turned to LPS; else
 // samples lie pixdim apart from the origin on, in unnamed world axes. Throws Error.
 Grid nifti_grid(const NiftiHeader& header) {
     Grid grid = plain_grid({header.dim[1], header.dim[2], header.dim[3]});
-    const std::string file = header.path.string();
-    if (header.sform_code > 0) {
-        place_by_sform(header, grid);
-        check_grid(file, grid, {"sform (srow_x, srow_y, srow_z)", "srow"});
-        turn_to_lps(grid, WorldAxes::right_anterior_superior);
-    } else if (header.qform_code > 0) {
+    constexpr const char* lengths[] = {"", "m", "mm", "um"};  // nifti1.h, NIFTI_UNITS_*
+    if (const auto unit = static_cast<std::size_t>(header.units & 7); unit < std::size(lengths))
+        grid.unit = lengths[unit];
+    const bool by_sform = is_placed_by_sform(header, grid);
+    if (!by_sform && header.qform_code > 0) {
         place_by_qform(header, grid);
-        check_grid(file, grid, {"qform", "qoffset"});
+        check_grid(header.path.string(), grid, {"qform", "qoffset"});
+    }
+    if (by_sform || header.qform_code > 0) {
         turn_to_lps(grid, WorldAxes::right_anterior_superior);
     } else {
         for (std::size_t axis = 0; axis < 3; ++axis)
-            grid.step[axis] *= std::abs(header.pixdim[axis + 1]);
-        check_grid(file, grid, {"pixdim", "pixdim"});
+            grid.step[axis] *= voxel_length(header, axis + 1);
+        check_grid(header.path.string(), grid, {"pixdim", "pixdim"});
     }
     return grid;
 }
@@ -244,6 +289,15 @@ Path header_path(const Path& path) {
 NiftiHeader expected_header(const Path& path) {
     const auto header = read_nifti_header(header_path(path));
     if (!header) {
+        std::string start = file_beginning(header_path(path), 4);
+        start.resize(4);
+        for (const bool swap : {false, true}) {
+            if (HeaderBytes(start, swap).at<std::int32_t>(0) != header1_bytes) continue;
+            fail(
+                "{}: found an ANALYZE 7.5 header, which does not say where left is, expected "
+                "NIfTI: nibabel or FSL's fslchfiletype converts it",
+                header_path(path).string());
+        }
         fail("{}: no NIfTI header: expected 348 or 540 in its first 4 bytes, and its magic",
              header_path(path).string());
     }
@@ -261,10 +315,23 @@ NiftiType type_of(const NiftiHeader& header) {
 
 void check_dimensions(const NiftiHeader& header) {
     const std::string file = header.path.string();
+    // nifti1.h leaves 3000 to 3099 to CIFTI (CIFTI-2, section 3).
+    if (header.intent >= 3000 && header.intent < 3100) {
+        fail(
+            "{}: intent_code: found {}, a CIFTI file of surfaces and voxels, expected a volume: "
+            "Connectome Workbench's wb_command -cifti-separate writes one",
+            file, header.intent);
+    }
     if (header.dim[0] < 3 || header.dim[0] > 7)
         fail("{}: dim[0]: found {}, expected 3 axes to 7", file, header.dim[0]);
     for (std::size_t i = 1; i <= static_cast<std::size_t>(header.dim[0]); ++i) {
-        const std::int64_t most = i > 5 ? 1 : std::int64_t{1} << 40;
+        if (i > 5 && header.dim[i] != 1) {
+            fail(
+                "{}: dim[{}]: found {}, expected 1: axes beyond x, y, z, time and vector are not "
+                "read",
+                file, i, header.dim[i]);
+        }
+        constexpr std::int64_t most = std::int64_t{1} << 40;
         if (header.dim[i] < 1 || header.dim[i] > most)
             fail("{}: dim[{}]: found {}, expected a number from 1 to {}", file, i, header.dim[i],
                  most);
@@ -286,6 +353,46 @@ std::vector<StoredAxis> axes_of(const NiftiHeader& header, std::int64_t colors,
     axes.push_back(taken_axis(file, "time", request.time, times));
     if (vectors > 1) axes.push_back(channel);
     return axes;
+}
+
+// Names the steps of the fourth axis in its unit, if the header says how far they are apart.
+std::vector<std::string> nifti_times_of(const NiftiHeader& header) {
+    constexpr const char* units[] = {"", "s", "ms", "us", "Hz", "ppm", "rad/s", ""};
+    std::vector<std::string> times(static_cast<std::size_t>(header.dim[4]));
+    const std::string unit = units[header.units >> 3 & 7];  // NIFTI_UNITS_* / 8
+    const double step = header.pixdim[4];
+    for (std::size_t i = 0; i < times.size() && !unit.empty() && step > 0; ++i) {
+        times[i] =
+            fmt::format("{:.6g} {}", header.first_time + static_cast<double>(i) * step, unit);
+    }
+    return times;
+}
+
+void fill_nifti_contents(const NiftiHeader& header, std::int64_t colours,
+                         VolumeContents& contents) {
+    constexpr std::int64_t rgb_vector = 2003, rgba_vector = 2004;  // NIFTI_INTENT_*
+    const std::int64_t vectors = header.dim[0] > 4 ? header.dim[5] : 1;
+    const std::int64_t channels = std::max(colours, vectors);
+    if (channels > 1) contents.channels.resize(static_cast<std::size_t>(channels));
+    if (header.dim[0] > 3 && header.dim[4] > 1) contents.times = nifti_times_of(header);
+    contents.is_colour = colours > 1 || header.intent == rgb_vector || header.intent == rgba_vector;
+}
+
+// Sets scale and shift. A slope of 0 says that there is none (nifti1.h, "Data scaling"), and
+// nibabel writes NaN for that.
+void set_nifti_scale(const NiftiHeader& header, StoredData& data) {
+    if (std::isnan(header.slope)) return;
+    if (!std::isfinite(header.slope) || (header.slope != 0 && !std::isfinite(header.intercept))) {
+        fail("{}: scl_slope, scl_inter: found {} and {}, expected finite numbers",
+             header.path.string(), header.slope, header.intercept);
+    }
+    if (header.slope != 0) {
+        data.scale = header.slope;
+        data.shift = header.intercept;
+    } else if (header.intercept != 0 && !std::isnan(header.intercept)) {
+        warn(fmt::format("{}: scl_inter: found {}, which scl_slope 0 says not to use",
+                         header.path.string(), header.intercept));
+    }
 }
 
 }  // namespace
@@ -315,15 +422,10 @@ Volume open_nifti(const Path& path, const VolumeRequest& request, const VolumeUs
     set_byte_order(data, header.big_endian);
     data.files = {header.data_path};
     data.byte_skip = header.data_offset;
-    // A slope of 0 means that there is none (nifti1.h, "Data scaling").
-    if (type.colors == 1 && header.slope != 0 && std::isfinite(header.slope)) {
-        if (!std::isfinite(header.intercept))
-            fail("{}: scl_inter: found {}, expected a finite number", header.path.string(),
-                 header.intercept);
-        data.scale = header.slope;
-        data.shift = header.intercept;
-    }
-    return open_stored(grid, data, use);
+    if (type.colors == 1) set_nifti_scale(header, data);
+    const Volume volume = open_stored(grid, data, use);
+    if (use.contents != nullptr) fill_nifti_contents(header, type.colors, *use.contents);
+    return volume;
 }
 
 std::vector<Path> files_of_nifti(const Path& path) {

@@ -9,10 +9,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <system_error>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "volume_files/numbered_files.h"
@@ -140,6 +142,24 @@ void set_steps_by_spacings(const Nrrd& nrrd, const std::vector<unsigned>& axes, 
     }
 }
 
+// Returns the unit of all three axes in space: that of `space units` if they have directions, else
+// of `units`. Throws Error if axes have different ones; there is none if an axis has none.
+std::string nrrd_unit_of(const std::string& file, const Nrrd& nrrd,
+                         const std::vector<unsigned>& axes, bool directed) {
+    std::array<std::string, 3> units;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const char* const found = directed ? nrrd.spaceUnits[i] : nrrd.axis[axes[i]].units;
+        if (found != nullptr) units[i] = unit_word(found);
+    }
+    for (const std::string& unit : units) {
+        if (unit == units[0] || unit.empty() || units[0].empty()) continue;
+        fail("{}: {}: found \"{}\" and \"{}\", expected one unit for the three axes", file,
+             directed ? "space units" : "units", units[0], unit);
+    }
+    const bool all = std::ranges::none_of(units, [](const auto& unit) { return unit.empty(); });
+    return all ? units[0] : std::string();
+}
+
 // Returns the grid of a parsed header (docs/scene.md, "What is drawn"). `has_spacings`: it has the
 // field `spacings`. Throws Error unless there are three orthogonal, finite, spatial axes.
 Grid nrrd_grid(const std::string& file, const Nrrd& nrrd, bool has_spacings) {
@@ -161,6 +181,7 @@ Grid nrrd_grid(const std::string& file, const Nrrd& nrrd, bool has_spacings) {
     if (nrrd.spaceDim == 3 && !std::isnan(nrrd.spaceOrigin[0])) {
         grid.origin = {nrrd.spaceOrigin[0], nrrd.spaceOrigin[1], nrrd.spaceOrigin[2]};
     }
+    grid.unit = nrrd_unit_of(file, nrrd, axes, directed);
     turn_to_lps(grid, axes_of(nrrd.space));
     check_grid(file, grid, {"space directions", "space origin"});
     return grid;
@@ -253,8 +274,10 @@ struct HeaderText {
     std::string text;  // magic and fields, without `data file` and remarks
     std::optional<NrrdDataFiles> data_files;
     std::set<std::string> fields;  // names of all fields, lower case
-    std::int64_t length = 0;       // bytes up to and including the empty line
-    bool ended = false;            // the header ends with an empty line, not with the file
+    // Key/value pairs of 3D Slicer's segmentations ("Segment0_Name:=liver").
+    std::map<std::string, std::string> segment_keys;
+    std::int64_t length = 0;  // bytes up to and including the empty line
+    bool ended = false;       // the header ends with an empty line, not with the file
 };
 
 std::string read_beginning(const std::filesystem::path& path) {
@@ -371,6 +394,8 @@ HeaderText split_header(const std::string& path, const std::string& bytes) {
                                         [](unsigned char c) { return c < ' ' && c != '\t'; });
         if (binary) fail("{}: line {} of the NRRD header holds binary bytes", path, number);
         const auto field = field_of(line);
+        if (const auto mark = line.find(":="); line.starts_with("Segment") && mark < line.size())
+            header.segment_keys.emplace(line.substr(0, mark), line.substr(mark + 2));
         if (field) {
             header.fields.insert(field->name);
             if (field->name == "sizes") check_sizes(path, number, *field);
@@ -438,7 +463,49 @@ DataEncoding encoding_of(const std::string& path, const ::NrrdEncoding* encoding
 struct NrrdHeader {
     Grid grid;
     StoredData data;
+    bool is_colour = false;
+    double first_time = 0, time_step = NAN;  // of the axis of times; NaN: not known
+    std::string time_unit;
 };
+
+// Fills in what the header says about channels and times; `data` must fit the file.
+void fill_nrrd_contents(const NrrdHeader& header, VolumeContents& contents) {
+    contents.is_colour = header.is_colour;
+    for (const StoredAxis& axis : header.data.axes) {
+        if (!axis.taken || axis.size == 1) continue;
+        const bool time = std::string_view(axis.what) == "time";
+        std::vector<std::string>& names = time ? contents.times : contents.channels;
+        names.resize(static_cast<std::size_t>(axis.size));
+        if (!time || std::isnan(header.time_step)) continue;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            names[i] = fmt::format("{:.6g} {}",
+                                   header.first_time + static_cast<double>(i) * header.time_step,
+                                   header.time_unit);
+        }
+    }
+}
+
+// Says that a file is a segmentation of 3D Slicer, and what its labels mean
+// (https://slicer.readthedocs.io, "Segmentations", "Segmentation file format").
+void say_segments(const std::string& file, const std::map<std::string, std::string>& keys) {
+    constexpr int most_named = 32;
+    std::string names;
+    int count = 0;
+    const auto value = [&](const char* key) {
+        const auto found = keys.find(fmt::format("Segment{}_{}", count, key));
+        return found == keys.end() ? std::string("?") : one_line(found->second).substr(0, 40);
+    };
+    for (; keys.contains(fmt::format("Segment{}_ID", count)); ++count) {
+        if (count >= most_named) continue;
+        names += fmt::format("{}{} is \"{}\"", count == 0 ? "" : ", ", value("LabelValue"),
+                             value("Name"));
+        if (value("Layer") != "0" && value("Layer") != "?")
+            names += fmt::format(" (channel {})", value("Layer"));
+    }
+    if (count == 0) return;
+    warn(fmt::format("{}: a segmentation of 3D Slicer, whose samples are labels: {}{}", file, names,
+                     count > most_named ? ", ..." : ""));
+}
 
 NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeRequest& request) {
     const std::string name = path.string();
@@ -473,6 +540,22 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeReque
         data.files = {path};
         data.offset = text.length;
     }
+    for (unsigned i = 0; i < nrrd->dim; ++i) {
+        const NrrdAxisInfo& axis = nrrd->axis[i];
+        header.is_colour |= axis.kind == nrrdKindRGBColor || axis.kind == nrrdKindRGBAColor ||
+                            axis.kind == nrrdKind3Color || axis.kind == nrrdKind4Color;
+        if (axis.kind != nrrdKindTime) continue;
+        header.first_time = std::isnan(axis.min) ? 0 : axis.min;
+        header.time_step = known_spacing_of(axis);
+        header.time_unit = axis.units == nullptr ? "" : unit_word(axis.units);
+    }
+    say_segments(name, text.segment_keys);
+    if (!std::isnan(nrrd->oldMin) || !std::isnan(nrrd->oldMax)) {
+        warn(
+            fmt::format("{}: old min, old max: found {} and {}, the range before the samples were "
+                        "quantized: the samples are drawn as they are stored",
+                        name, nrrd->oldMin, nrrd->oldMax));
+    }
     data.line_skip = state->lineSkip;
     data.byte_skip = state->byteSkip;
     return header;
@@ -487,7 +570,9 @@ bool is_nrrd(const std::filesystem::path& path) {
 Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use) {
     const NrrdHeader header = read_nrrd_header(path, request);
-    return open_stored(header.grid, header.data, use);
+    const Volume volume = open_stored(header.grid, header.data, use);
+    if (use.contents != nullptr) fill_nrrd_contents(header, *use.contents);
+    return volume;
 }
 
 std::vector<std::filesystem::path> files_of_nrrd(const std::filesystem::path& path) {

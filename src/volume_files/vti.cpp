@@ -1,300 +1,307 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume_files/volume_formats.h"
-
+// "VTK File Formats" (the VTK User's Guide): image data, rectilinear grids, their parallel forms,
+// and ParaView's lists of files by time (.pvd).
 #include <algorithm>
-#include <cstring>
-#include <iterator>
+#include <set>
 #include <sstream>
 
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
-#include "base/memory.h"
+#include "mesh_files/mesh_formats.h"
 #include "mesh_files/vtk_xml.h"
+#include "volume_files/volume_formats.h"
+#include "volume_files/vtk_image.h"
 
 namespace lamina {
 namespace {
 
 using Path = std::filesystem::path;
+using Node = pugi::xml_node;
 
-// Upper bound on the bytes that one byte decompresses to: LZMA, the densest, reaches some 7000.
-constexpr std::size_t most_vti_expansion = 32768;
-constexpr std::size_t most_pieces = 4096;  // each is compared with all others
+constexpr std::size_t most_pieces = 4096;
 
-// A box of points: the first and the last one along each axis.
-struct Extent {
-    std::array<std::int64_t, 3> first{}, last{};
+bool is_image_type(const std::string& type) {
+    return type == "ImageData" || type == "RectilinearGrid" || type == "PImageData" ||
+           type == "PRectilinearGrid";
+}
 
-    bool operator==(const Extent&) const = default;
-};
+// Throws Error unless a file that another one names may be opened and is there.
+void expect_named_file(const Path& file, const std::string& what) {
+    expect_allowed(file);
+    if (const char* const reason = why_not_regular(file))
+        fail("{}: {}: {}", file.string(), what, reason);
+}
 
-// A VTK XML image file, whose pieces are joined into one volume.
-class ImageFile {
-  public:
-    ImageFile(const Path& path, const VolumeRequest& request)
-        : file_(path, "ImageData"),
-          request_(request),
-          whole_(extent_of(file_.grid(), "WholeExtent")),
-          pieces_(file_.grid().children("Piece").begin(), file_.grid().children("Piece").end()) {
-        if (pieces_.empty()) fail("{}: no <Piece> in it", file_.name());
-        if (pieces_.size() > most_pieces) {
-            fail("{}: found {} pieces, expected at most {}", file_.name(), pieces_.size(),
-                 most_pieces);
-        }
-        choose_array();
+// Tells if a file of a .pvd is an image: by its name if it is not there.
+bool names_image(const Path& file) {
+    std::error_code absent;
+    if (std::filesystem::exists(file, absent))
+        return is_image_type(vtk_xml_type(file)) || is_legacy_vtk_image(file);
+    const std::string extension = file.extension().string();
+    return extension == ".vti" || extension == ".vtr" || extension == ".pvti" ||
+           extension == ".pvtr";
+}
+
+bool is_pvd_of_images(const Path& path) {
+    try {
+        const Path file = steps_of_pvd(path).front().files.front();
+        expect_allowed(file);
+        return names_image(file);
+    } catch (const Error&) {
+        return false;  // read_mesh() reports it
     }
+}
 
-    Grid grid() const {
-        Grid grid = plain_grid(size_of(whole_));
-        const auto origin = numbers_of<3>("Origin", {0, 0, 0});
-        const auto spacing = numbers_of<3>("Spacing", {1, 1, 1});
-        const auto direction = numbers_of<9>("Direction", {1, 0, 0, 0, 1, 0, 0, 0, 1});
-        grid.origin = {origin[0], origin[1], origin[2]};
+template <typename T, std::size_t count>
+std::array<T, count> numbers_in(const VtkXmlFile& file, Node node, const char* attribute,
+                                std::array<T, count> numbers, const char* expected) {
+    std::istringstream stream(node.attribute(attribute).value());
+    std::string more;
+    bool good = true;
+    for (T& number : numbers) good &= static_cast<bool>(stream >> number);
+    if (!good || stream >> more) {
+        fail("{}: {}: found '{}', expected {}", file.name(), attribute,
+             one_line(node.attribute(attribute).value()).substr(0, 80), expected);
+    }
+    return numbers;
+}
+
+VtkExtent extent_of(const VtkXmlFile& file, Node node, const char* attribute) {
+    constexpr std::int64_t largest = std::int64_t{1} << 40;
+    constexpr const char* expected = "first and last point along x, y and z";
+    const auto numbers = numbers_in<std::int64_t, 6>(file, node, attribute, {}, expected);
+    VtkExtent extent;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        extent.first[axis] = numbers[2 * axis];
+        extent.last[axis] = numbers[2 * axis + 1];
+        if (extent.first[axis] < -largest || extent.last[axis] > largest ||
+            extent.first[axis] > extent.last[axis]) {
+            fail("{}: {}: found '{}', expected {}", file.name(), attribute,
+                 one_line(node.attribute(attribute).value()).substr(0, 80), expected);
+        }
+    }
+    return extent;
+}
+
+// Returns the places of image data; nothing if the parts of a rectilinear grid have them.
+std::optional<VtkGeometry> geometry_of(const VtkXmlFile& file, const std::string& type) {
+    if (!type.ends_with("ImageData")) return {};
+    VtkGeometry places;
+    const auto read = [&](const char* attribute, auto& numbers, const char* expected) {
+        if (file.grid().attribute(attribute))
+            numbers = numbers_in(file, file.grid(), attribute, numbers, expected);
+    };
+    read("Origin", places.origin, "3 numbers");
+    read("Spacing", places.spacing, "3 numbers");
+    read("Direction", places.direction, "9 numbers");
+    return places;
+}
+
+std::vector<VtkImageArray> vtk_arrays_of(const VtkXmlFile& file, Node piece) {
+    std::vector<VtkImageArray> arrays;
+    for (const char* const section : {"PointData", "CellData"}) {
+        for (const Node node : piece.child(section).children("DataArray")) {
+            const std::string_view type = node.attribute("type").value();
+            if (type == "String" || type == "Bit") continue;
+            const bool of_cells = std::string_view(section) == "CellData";
+            VtkImageArray array{node.attribute("Name").value(), of_cells, 1, {}};
+            const std::string what = fmt::format("{}: '{}'", file.name(), one_line(array.name));
+            array.components = file.components_of(node, what);
+            constexpr std::int64_t most = 65536;
+            if (array.components > most)
+                fail("{}: found {} components, expected at most {}", what, array.components, most);
+            for (std::int64_t i = 0; i < array.components; ++i) {
+                const auto named = node.attribute(fmt::format("ComponentName{}", i).c_str());
+                if (!named) break;
+                array.component_names.emplace_back(named.value());
+            }
+            arrays.push_back(std::move(array));
+        }
+    }
+    return arrays;
+}
+
+std::array<std::vector<double>, 3> coordinates_of(const VtkXmlFile& file, Node piece,
+                                                  const VtkExtent& extent) {
+    std::array<std::vector<double>, 3> coordinates;
+    std::size_t axis = 0;
+    for (const Node array : piece.child("Coordinates").children("DataArray")) {
+        if (axis == 3) break;
+        coordinates[axis] =
+            file.values<double>(array, extent.last[axis] - extent.first[axis] + 1, 1,
+                                fmt::format("{}: {} coordinates", file.name(), "xyz"[axis]));
+        ++axis;
+    }
+    if (axis < 3) fail("{}: Coordinates: found {} arrays, expected 3", file.name(), axis);
+    return coordinates;
+}
+
+// Returns a piece of a file, which must outlive it.
+VtkImagePart part_of(const VtkXmlFile& file, Node piece, bool rectilinear) {
+    VtkImagePart part;
+    part.extent = extent_of(file, piece, "Extent");
+    part.arrays = vtk_arrays_of(file, piece);
+    for (const char* const section : {"PointData", "CellData"})
+        if (part.scalars.empty()) part.scalars = piece.child(section).attribute("Scalars").value();
+    part.values = [&file, piece](const VtkImageArray& array, std::int64_t tuples,
+                                 const std::string& what) {
+        const Node section = piece.child(array.of_cells ? "CellData" : "PointData");
+        const Node node = section.find_child([&](Node one) {
+            return std::string_view(one.name()) == "DataArray" &&
+                   one.attribute("Name").value() == array.name;
+        });
+        return file.stored_values(node, tuples, array.components, what);
+    };
+    if (rectilinear) part.coordinates = coordinates_of(file, piece, part.extent);
+    return part;
+}
+
+// Returns the pieces of a file. Throws Error if there are none or very many.
+std::vector<Node> vtk_pieces_of(const VtkXmlFile& file) {
+    const auto range = file.grid().children("Piece");
+    std::vector<Node> pieces(range.begin(), range.end());
+    if (pieces.empty()) fail("{}: no <Piece> in it", file.name());
+    if (pieces.size() > most_pieces) {
+        fail("{}: found {} pieces, expected at most {}", file.name(), pieces.size(), most_pieces);
+    }
+    return pieces;
+}
+
+using Add = std::function<void(const VtkImagePart&)>;
+
+void add_pieces(const VtkXmlFile& file, bool rectilinear, const Add& add) {
+    const VtkExtent whole = extent_of(file, file.grid(), "WholeExtent");
+    int number = 0;
+    for (const Node piece : vtk_pieces_of(file)) {
+        const VtkImagePart part = part_of(file, piece, rectilinear);
+        ++number;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const glm::dvec3 column{direction[axis], direction[axis + 3], direction[axis + 6]};
-            grid.step[axis] = spacing[axis] * column;
-            // On an axis with a single point, the cells lie at that point.
-            const bool between = of_cells_ && whole_.first[axis] != whole_.last[axis];
-            if (of_cells_) grid.centering[axis] = Centering::cell;
-            grid.origin +=
-                (static_cast<double>(whole_.first[axis]) + (between ? 0.5 : 0.0)) * grid.step[axis];
+            if (part.extent.first[axis] < whole.first[axis] ||
+                part.extent.last[axis] > whole.last[axis])
+                fail("{}: Piece {}: its Extent is none within the WholeExtent", file.name(),
+                     number);
         }
-        check_grid(file_.name(), grid, {"Direction", "Origin"});
-        return grid;
+        add(part);
     }
+}
 
-    StoredSamples samples() const {
-        if (pieces_.size() == 1 && extent_of(pieces_[0], "Extent") == whole_)
-            return piece_samples(pieces_[0], whole_);
-        return joined_samples();
-    }
-
-  private:
-    using Node = pugi::xml_node;
-
-    Extent extent_of(Node node, const char* attribute) const {
-        std::istringstream stream(node.attribute(attribute).value());
-        Extent extent;
-        constexpr std::int64_t largest = std::int64_t{1} << 40;
-        bool good = true;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            std::int64_t &first = extent.first[axis], &last = extent.last[axis];
-            good &= static_cast<bool>(stream >> first >> last) && first >= -largest &&
-                    last <= largest && first <= last;
-        }
-        std::string more;
-        if (!good || stream >> more) {
-            fail("{}: {}: found '{}', expected first and last point along x, y and z", file_.name(),
-                 attribute, one_line(node.attribute(attribute).value()).substr(0, 80));
-        }
-        return extent;
-    }
-
-    template <std::size_t count>
-    std::array<double, count> numbers_of(const char* attribute,
-                                         std::array<double, count> numbers) const {
-        const pugi::xml_attribute found = file_.grid().attribute(attribute);
-        if (!found) return numbers;
-        std::istringstream stream(found.value());
-        std::string more;
-        bool good = true;
-        for (double& number : numbers) good &= static_cast<bool>(stream >> number);
-        if (!good || stream >> more) {
-            fail("{}: {}: found '{}', expected {} numbers", file_.name(), attribute,
-                 one_line(found.value()).substr(0, 80), count);
-        }
-        return numbers;
-    }
-
-    std::array<std::int64_t, 3> size_of(const Extent& extent) const {
-        std::array<std::int64_t, 3> size{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::int64_t cells = extent.last[axis] - extent.first[axis];
-            size[axis] = of_cells_ ? std::max<std::int64_t>(cells, 1) : cells + 1;
-        }
-        return size;
-    }
-
-    // Chooses the array by the first piece, and finds out if it belongs to points or to cells.
-    void choose_array() {
-        std::vector<std::string> names;
-        std::string preferred;
-        for (const char* const section : {"PointData", "CellData"}) {
-            const Node data = pieces_[0].child(section);
-            if (preferred.empty()) preferred = data.attribute("Scalars").value();
-            for (const Node array : data.children("DataArray")) {
-                const std::string_view type = array.attribute("type").value();
-                if (type != "String" && type != "Bit")
-                    names.emplace_back(array.attribute("Name").value());
-            }
-        }
-        if (names.empty()) fail("{}: no array of numbers in PointData and CellData", file_.name());
-        array_ = request_.array;
-        if (array_.empty()) {
-            array_ = std::ranges::find(names, preferred) != names.end() ? preferred : names[0];
-            if (names.size() > 1) {
-                warn(
-                    fmt::format("{}: array \"{}\" of {} is taken: \"array\" in the volume names "
-                                "another",
-                                file_.name(), one_line(array_), names.size()));
-            }
-        } else if (std::ranges::find(names, array_) == names.end()) {
-            std::string list;
-            for (const std::string& name : names)
-                list += fmt::format("{}\"{}\"", list.empty() ? "" : ", ", one_line(name));
-            fail("{}: array: found \"{}\", expected one of {}", file_.name(), one_line(array_),
-                 list);
-        }
-        of_cells_ = !find_array(pieces_[0], "PointData");
-    }
-
-    Node find_array(Node piece, const char* section) const {
-        for (const Node array : piece.child(section).children("DataArray"))
-            if (array.attribute("Name").value() == array_) return array;
-        return {};
-    }
-
-    StoredSamples piece_samples(Node piece, const Extent& extent) const {
-        const std::string what = fmt::format("{}: '{}'", file_.name(), one_line(array_));
-        const Node array = find_array(piece, of_cells_ ? "CellData" : "PointData");
-        if (!array) fail("{}: not in every piece", what);
-        const std::array<std::int64_t, 3> size = size_of(extent);
-        std::vector<StoredAxis> axes{size[0], size[1], size[2]};
-        const auto count = static_cast<std::int64_t>(stored_bytes(what, axes, 1));
-        const std::int64_t components = file_.components_of(array, what);
-        auto values =
-            std::make_shared<VtkXmlValues>(file_.stored_values(array, count, components, what));
-        StoredSamples samples{what, values->type, nullptr};
-        const StoredAxis channel = taken_axis(what, "channel", request_.channel, components);
-        if (components == 1) {
-            samples.bytes = std::shared_ptr<void>(values, values->bytes.data());
-            return samples;
-        }
-        axes.insert(axes.begin(), channel);
-        if (piece == pieces_[0]) say_taken(what, axes);
-        const std::size_t word = bytes_of(values->type);
-        samples.bytes = filled_memory(stored_bytes(what, axes, word, true));
-        take_of_memory(values->bytes.text().data(), axes, word,
-                       static_cast<char*>(samples.bytes.get()));
-        return samples;
-    }
-
-    // Throws Error if the file cannot hold the image, before its memory is taken.
-    void check_capacity() const {
-        const std::array<std::int64_t, 3> size = size_of(whole_);
-        const StoredAxis axes[] = {size[0], size[1], size[2]};
-        const std::size_t samples = stored_bytes(file_.name(), axes, 1);
-        if (samples / most_vti_expansion <= file_.byte_count()) return;
-        fail("{}: WholeExtent: found {} x {} x {} samples, more than the file's {} bytes can hold",
-             file_.name(), size[0], size[1], size[2], file_.byte_count());
-    }
-
-    StoredSamples joined_samples() const {
-        const std::array<std::int64_t, 3> size = size_of(whole_);
-        check_capacity();
-        check_pieces();
-        StoredSamples all;
-        for (const Node piece : pieces_) {
-            const Extent extent = extent_of(piece, "Extent");
-            const StoredSamples part = piece_samples(piece, extent);
-            const std::size_t word = bytes_of(part.type);
-            if (!all.bytes) {
-                const StoredAxis axes[] = {size[0], size[1], size[2]};
-                all = {part.file, part.type, filled_memory(stored_bytes(part.file, axes, word))};
-            }
-            if (part.type != all.type) {
-                fail("{}: found {} and {} in its pieces, expected one type", part.file,
-                     name_of(all.type), name_of(part.type));
-            }
-            put_piece(part, extent, size, word, all);
-        }
-        return all;
-    }
-
-    // Throws Error unless the pieces fill the whole image. They may share points but no cells: so
-    // none may overlap another or lie outside, and their cells must add up to the whole's.
-    void check_pieces() const {
-        double covered = 0, expected = 1;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            expected *= static_cast<double>(
-                std::max<std::int64_t>(whole_.last[axis] - whole_.first[axis], 1));
-        for (std::size_t i = 0; i < pieces_.size(); ++i) {
-            const Extent extent = extent_of(pieces_[i], "Extent");
-            double cells = 1;
-            bool inside = true;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const bool flat = whole_.first[axis] == whole_.last[axis];
-                inside &= extent.first[axis] >= whole_.first[axis] &&
-                          extent.last[axis] <= whole_.last[axis] &&
-                          (flat || extent.first[axis] < extent.last[axis]);
-                cells *= static_cast<double>(
-                    std::max<std::int64_t>(extent.last[axis] - extent.first[axis], 1));
-            }
-            if (!inside)
-                fail("{}: Piece {}: its Extent is none within the WholeExtent", file_.name(),
-                     i + 1);
-            covered += cells;
-            for (std::size_t other = 0; other < i; ++other) expect_apart(extent, other, i);
-        }
-        if (covered != expected) {
-            fail("{}: its pieces cover {} of {} cells", file_.name(), covered, expected);
+// The files of the pieces of a .pvti or .pvtr, relative to its folder.
+std::vector<Path> sources_of(const Path& path, const VtkXmlFile& index) {
+    std::vector<Path> files;
+    std::set<Path> seen;
+    for (const Node piece : vtk_pieces_of(index)) {
+        const std::string source = piece.attribute("Source").value();
+        if (source.empty())
+            fail("{}: Piece {}: Source: found none, expected a file", index.name(),
+                 files.size() + 1);
+        files.push_back(path.parent_path() / source);
+        std::error_code unreadable;  // such a file fails when it is read
+        const Path canonical = std::filesystem::weakly_canonical(files.back(), unreadable);
+        if (!seen.insert(unreadable ? files.back() : canonical).second) {
+            fail("{}: Piece {}: found the file {} twice, expected each once", index.name(),
+                 files.size(), one_line(files.back().string()));
         }
     }
+    return files;
+}
 
-    void expect_apart(const Extent& extent, std::size_t other, std::size_t number) const {
-        const Extent before = extent_of(pieces_[other], "Extent");
-        bool overlap = true;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const bool flat = whole_.first[axis] == whole_.last[axis];
-            overlap &= flat || (extent.first[axis] < before.last[axis] &&
-                                before.first[axis] < extent.last[axis]);
-        }
-        if (overlap) fail("{}: pieces {} and {} overlap", file_.name(), other + 1, number + 1);
+// Reads a .pvti or .pvtr, whose pieces are files and may overlap by ghosts.
+Volume open_parallel(const Path& path, const std::string& type, const VolumeRequest& request,
+                     const VolumeUse& use) {
+    const VtkXmlFile index(path, type.c_str());
+    VtkImageHead head{index.name(), 0, extent_of(index, index.grid(), "WholeExtent"),
+                      geometry_of(index, type)};
+    const std::vector<Path> files = sources_of(path, index);
+    for (const Path& file : files) {
+        expect_named_file(file, fmt::format("piece of {}", index.name()));
+        head.bytes += std::filesystem::file_size(file);
     }
+    const std::string type_of_piece = type.substr(1);
+    const auto for_parts = [&](const Add& add) {
+        for (const Path& file : files)
+            add_pieces(VtkXmlFile(file, type_of_piece.c_str()), !head.geometry, add);
+    };
+    return joined_vtk_image(head, for_parts, request, use);
+}
 
-    void put_piece(const StoredSamples& part, const Extent& extent,
-                   const std::array<std::int64_t, 3>& size, std::size_t word,
-                   StoredSamples& all) const {
-        const std::array<std::int64_t, 3> mine = size_of(extent);
-        const std::size_t row = static_cast<std::size_t>(mine[0]) * word;
-        const auto* from = static_cast<const char*>(part.bytes.get());
-        auto* const to = static_cast<char*>(all.bytes.get());
-        for (std::int64_t z = 0; z < mine[2]; ++z) {
-            for (std::int64_t y = 0; y < mine[1]; ++y, from += row) {
-                const std::int64_t place =
-                    extent.first[0] - whole_.first[0] +
-                    size[0] * (extent.first[1] - whole_.first[1] + y +
-                               size[1] * (extent.first[2] - whole_.first[2] + z));
-                std::memcpy(to + static_cast<std::size_t>(place) * word, from, row);
-            }
-        }
+Volume open_single(const Path& path, const std::string& type, const VolumeRequest& request,
+                   const VolumeUse& use) {
+    const VtkXmlFile file(path, type.c_str());
+    const VtkImageHead head{file.name(), file.byte_count(),
+                            extent_of(file, file.grid(), "WholeExtent"), geometry_of(file, type)};
+    return joined_vtk_image(
+        head, [&](const Add& add) { add_pieces(file, !head.geometry, add); }, request, use);
+}
+
+Volume open_pvd(const Path& path, VolumeRequest request, const VolumeUse& use) {
+    const std::vector<PvdStep> steps = steps_of_pvd(path);
+    const std::int64_t step = taken_of(path.string(), "time", request.time, std::ssize(steps));
+    const std::vector<Path>& files = steps[static_cast<std::size_t>(step)].files;
+    if (files.size() > 1) {
+        fail("{}: step {}: found {} files, expected one: a .pvti or .pvtr joins pieces",
+             path.string(), step, files.size());
     }
-
-    VtkXmlFile file_;
-    const VolumeRequest& request_;
-    Extent whole_;
-    std::vector<Node> pieces_;
-    std::string array_;
-    bool of_cells_ = false;  // the array belongs to cells
-};
+    if (use.contents != nullptr)
+        for (const PvdStep& one : steps) use.contents->times.push_back(fmt::format("{}", one.time));
+    const std::string what = fmt::format("step {} of {}", step, path.string());
+    expect_named_file(files[0], what);
+    if (!names_image(files[0]))
+        fail("{}: {}: expected an image, as at the first step", files[0].string(), what);
+    request.time.reset();
+    return open_vti(files[0], request, use);
+}
 
 }  // namespace
 
-bool is_vti(const Path& path) {
-    const std::string beginning = file_beginning(path, 4096);
-    const std::size_t tag = beginning.find("<VTKFile");
-    if (tag == std::string::npos ||
-        beginning.find_first_not_of(" \t\r\n\xef\xbb\xbf") != beginning.find('<'))
-        return false;
-    const std::string element = beginning.substr(tag, beginning.find('>', tag) - tag);
-    return element.find("ImageData\"") != std::string::npos ||
-           element.find("ImageData'") != std::string::npos;
+void refuse_vtk_type(const std::string& file, const std::string& type) {
+    const char* advice = "draw one of the files that it names";
+    if (type.find("tructured") != std::string::npos)
+        advice = "ParaView's filter Resample To Image makes image data of a curved grid";
+    if (type.find("oly") != std::string::npos)
+        advice = "a surface has no samples between its faces";
+    fail(
+        "{}: found a VTK file of type {}, expected image data, a rectilinear grid with even "
+        "steps, or an unstructured grid: {}",
+        file, one_line(type), advice);
 }
 
-Volume open_vti(const Path& path, const VolumeRequest& request, const VolumeUse& /*use*/) {
-    const ImageFile image(path, request);
-    const Grid grid = image.grid();
-    return drawn_volume(grid, image.samples());
+bool is_vti(const Path& path) {
+    const std::string type = vtk_xml_type(path);
+    if (type == "Collection") return is_pvd_of_images(path);
+    if (type.empty()) return is_legacy_vtk_image(path);
+    constexpr const char* refused[] = {"StructuredGrid", "PolyData", "HyperTreeGrid", "Table"};
+    return is_image_type(type) || type.starts_with("vtk") ||
+           std::ranges::any_of(refused, [&](const std::string& word) {
+               return type == word || type == "P" + word;
+           });
+}
+
+Volume open_vti(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
+    const std::string type = vtk_xml_type(path);
+    if (type == "Collection") return open_pvd(path, request, use);
+    taken_axis(path.string(), "time", request.time, 1);
+    if (type.empty() && is_legacy_vtk_image(path)) return open_legacy_vtk_image(path, request, use);
+    if (!type.empty() && !is_image_type(type)) refuse_vtk_type(path.string(), type);
+    if (type.starts_with("P")) return open_parallel(path, type, request, use);
+    return open_single(path, type.empty() ? "ImageData" : type, request, use);
+}
+
+std::vector<Path> files_of_vti(const Path& path) {
+    std::vector<Path> files;
+    const auto append = [&](const Path& file) {
+        files.push_back(file);
+        expect_allowed(file);
+        const std::string type = vtk_xml_type(file);
+        if (type != "PImageData" && type != "PRectilinearGrid") return;
+        for (const Path& piece : sources_of(file, VtkXmlFile(file, type.c_str())))
+            files.push_back(piece);
+    };
+    append(path);
+    if (vtk_xml_type(path) != "Collection") return files;
+    for (const PvdStep& step : steps_of_pvd(path))
+        for (const Path& file : step.files) append(file);
+    return files;
 }
 
 }  // namespace lamina

@@ -118,7 +118,7 @@ TEST_F(NrrdErrors, RefuseDirectionsThatMakeNoGrid) {
     };
     expect_says(directions("(1,0,0) (1,1,0) (0,0,1)"),
                 {"axes 0 and 1 meet at 45.0000 degrees", "expected 90"});
-    expect_says(directions("(1,0,0) (0,1,0) (0,0.001,1)"), {"axes 1 and 2 meet at 89.94"});
+    expect_says(directions("(1,0,0) (0,1,0) (0,0.002,1)"), {"axes 1 and 2 meet at 89.88"});
     expect_says(directions("(1,0,0) (0,1,0) none"), {"axis 2"});
     expect_says(directions("(1,0,0) (0,0,0) (0,0,1)"), {"axis 1"});
     expect_says(directions("(1,0,0) (0,1e300,0) (0,0,1)"),

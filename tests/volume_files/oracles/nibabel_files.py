@@ -91,6 +91,48 @@ def nibabel_files(cases):
     nib.save(nib.Nifti1Image(rgb, oblique), cases.path("rgb.nii"))
     cases.add("rgb.nii", rgb["G"].T, steps, origin, channel=1)
 
+    bad_places(cases, nib)
+
+
+def bad_places(cases, nib):
+    """Skewed and empty sforms, and pixdim that are no distances."""
+    array = values_of("int16", (6, 5, 4), seed=60)
+    good = rotation(.4, .1, -.7) @ np.diag([1.5, .75, 3])
+
+    def case(file, sform, sform_code, qform_code, expected, says):
+        image = nib.Nifti1Image(array, None)
+        affine = np.eye(4)
+        affine[:3, :3], affine[:3, 3] = good, (-40, 25, 7)
+        image.header.set_qform(affine, 1)
+        image.header["qform_code"] = qform_code
+        for row, name in zip(sform, ("srow_x", "srow_y", "srow_z")):
+            image.header[name] = row
+        image.header["sform_code"] = sform_code
+        nib.save(nib.Nifti1Image(array, None, image.header), cases.path(file))
+        header = nib.load(cases.path(file)).header
+        steps, origin = to_lps(header.get_qform() if expected is None else expected)
+        cases.add(file, array.T, steps, origin, warnings=says)
+
+    place = np.array([[1], [2], [3.]])
+    skewed = np.hstack([good @ np.array([[1, .01, 0], [0, 1, 0], [0, 0, 1]]), place])  # by .57 degrees
+    case("skewed.nii", skewed, 2, 1, None, ["expected 90: the qform is taken"])
+    case("empty.nii", np.zeros((3, 4)), 1, 1, None, ["distance of 0", "the qform is taken"])
+    # A shear of 1e-4 (.0057 degrees): the orthogonal directions nearest to it, by singular values.
+    sheared = good @ np.array([[1, 1e-4, 0], [0, 1, 0], [0, 0, 1]])
+    lengths = np.linalg.norm(sheared, axis=0)
+    left, _, right = np.linalg.svd(sheared / lengths)
+    nearest = np.eye(4)
+    nearest[:3] = np.hstack([left @ right * lengths, place])
+    case("sheared.nii", np.hstack([sheared, place]), 1, 0, nearest, ["nearest orthogonal ones are taken"])
+    image = nib.Nifti1Image(array, None)
+    nib.save(image, cases.path("pixdim.nii"))
+    with open(cases.path("pixdim.nii"), "r+b") as file:
+        file.seek(80)  # pixdim[1], [2], [3], which nibabel would mend
+        file.write(np.array([-1.5, 0, 3], "<f4").tobytes())
+        file.seek(252)
+        file.write(np.zeros(2, "<i2").tobytes())
+    cases.add("pixdim.nii", array.T, np.diag([1.5, 1, 3]), warnings=["pixdim[1]: found -1.5", "pixdim[2]: found 0"])
+
 
 def one_head(cases, nib, affine):
     """The same samples at the same places, as NIfTI (RAS), NRRD and MetaImage (LPS)."""

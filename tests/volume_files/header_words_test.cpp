@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// What headers of NIfTI, NRRD and MetaImage say about units, scales, times, colours and labels is
+// used, told, or refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "nrrd_files.h"
+#include "support/expect_error.h"
+#include "support/heard_warnings.h"
+#include "volume_files/volume_file.h"
+
+namespace lamina {
+namespace {
+
+using Words = std::vector<std::string>;
+
+class HeaderWords : public testing::NrrdFiles {
+  protected:
+    static std::string good(const std::string& name) {
+        return read_bytes_of(std::string(LAMINA_SOURCE_DIR) + "/tests/fuzz/corpus/" + name);
+    }
+
+    VolumeContents contents_of(const std::filesystem::path& path) {
+        VolumeContents contents;
+        VolumeUse use;
+        use.contents = &contents;
+        open_volume(path, {}, use);
+        return contents;
+    }
+
+    void expect_said(const std::string& part) {
+        EXPECT_NE(heard_.all().find(part), std::string::npos)
+            << "'" << part << "' is not in: " << heard_.all();
+        heard_.texts.clear();
+    }
+
+    test::HeardWarnings heard_;
+};
+
+template <typename T>
+std::string nifti_with(std::string bytes, std::size_t offset, T value) {
+    std::memcpy(bytes.data() + offset, &value, sizeof value);
+    return bytes;
+}
+
+TEST_F(HeaderWords, OfNiftiNameUnitsAndTimes) {
+    const std::string times = good("nifti/times.nii");
+    constexpr std::size_t units = 123, step = 76 + 4 * 4, first = 136;  // nifti1.h
+    // NIFTI_UNITS_MM + NIFTI_UNITS_MSEC
+    std::string text = nifti_with(times, units, std::uint8_t{2 + 16});
+    text = nifti_with(nifti_with(text, step, 2.5F), first, 10.F);
+    const auto path = write("a.nii", text);
+    EXPECT_EQ(read_volume(path).grid().unit, "mm");
+    EXPECT_EQ(contents_of(path).times, (Words{"10 ms", "12.5 ms"}));
+    EXPECT_FALSE(contents_of(path).is_colour);
+    const auto metres = write("b.nii", nifti_with(times, units, std::uint8_t{1}));
+    EXPECT_EQ(read_volume(metres).grid().unit, "m");
+    EXPECT_EQ(contents_of(metres).times, (Words{"", ""}));
+    const auto none = write("c.nii", nifti_with(times, units, std::uint8_t{0}));
+    EXPECT_EQ(read_volume(none).grid().unit, "");
+}
+
+TEST_F(HeaderWords, OfNiftiScaleOnlyIfTheyAreNumbers) {
+    const std::string one = good("nifti/one.nii");
+    const auto scaled = [&](float slope, float shift) {
+        return write("a.nii", nifti_with(nifti_with(one, 112, slope), 116, shift));
+    };
+    const auto plain = testing::samples_of<std::int16_t>(read_volume(scaled(1, 0)));
+    EXPECT_EQ(testing::samples_of<std::int16_t>(read_volume(scaled(NAN, NAN))), plain);
+    EXPECT_EQ(heard_.all().find("scl_"), std::string::npos);
+    EXPECT_EQ(testing::samples_of<std::int16_t>(read_volume(scaled(0, 7))), plain);
+    expect_said("scl_inter: found 7, which scl_slope 0");
+    expect_error([&] { read_volume(scaled(INFINITY, 0)); },
+                 {"a.nii: scl_slope", "found inf and 0"});
+    expect_error([&] { read_volume(scaled(2, NAN)); }, {"a.nii: scl_slope", "found 2 and nan"});
+}
+
+TEST_F(HeaderWords, OfNiftiNameOtherKindsOfFiles) {
+    const std::string one = good("nifti/one.nii");
+    expect_error([&] { read_volume(write("a.nii", nifti_with(one, 68, std::int16_t{3006}))); },
+                 {"a.nii: intent_code: found 3006, a CIFTI file"});
+    expect_error([&] { read_volume(write("a.hdr", nifti_with(one, 344, std::int32_t{0}))); },
+                 {"a.hdr: found an ANALYZE 7.5 header", "fslchfiletype"});
+    // quatern_b of 2, with a qform and no sform.
+    std::string turned = nifti_with(nifti_with(one, 252, std::int16_t{1}), 254, std::int16_t{0});
+    turned = nifti_with(turned, 256, 2.F);
+    expect_error([&] { read_volume(write("a.nii", turned)); }, {"a.nii: quatern_b", "at most 1"});
+}
+
+const std::string nrrd_4d = "NRRD0005\ntype: uint8\ndimension: 4\nencoding: raw\n";
+
+TEST_F(HeaderWords, OfNrrdNameUnitsTimesAndColours) {
+    const std::string cube = "NRRD0005\ntype: uint8\ndimension: 3\nencoding: raw\nsizes: 2 1 1\n";
+    const std::string directions =
+        "space: left-posterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n";
+    const auto unit = [&](const std::string& fields) {
+        return read_volume(write("a.nrrd", cube + fields + "\n12")).grid().unit;
+    };
+    EXPECT_EQ(unit(directions + "space units: \"um\" \"um\" \"um\"\n"), "um");
+    EXPECT_EQ(unit("spacings: 1 2 3\nunits: \"mm\" \"mm\" \"mm\"\n"), "mm");
+    EXPECT_EQ(unit(directions), "");
+    EXPECT_EQ(unit("spacings: 1 2 3\nunits: \"mm\" \"\" \"mm\"\n"), "");
+    expect_error([&] { unit(directions + "space units: \"mm\" \"mm\" \"um\"\n"); },
+                 {"a.nrrd: space units: found \"mm\" and \"um\", expected one unit"});
+    const auto times = write("t.nrrd", nrrd_4d +
+                                           "sizes: 2 1 1 3\nkinds: domain domain domain time\n"
+                                           "spacings: 1 1 1 0.5\naxis mins: 0 0 0 2\nunits: \"\" "
+                                           "\"\" \"\" \"s\"\n\n123456");
+    EXPECT_EQ(contents_of(times).times, (Words{"2 s", "2.5 s", "3 s"}));
+    const auto colours = write("c.nrrd", nrrd_4d +
+                                             "sizes: 3 2 1 1\nkinds: RGB-color domain domain "
+                                             "domain\n\n123456");
+    EXPECT_TRUE(contents_of(colours).is_colour);
+    EXPECT_EQ(contents_of(colours).channels.size(), 3u);
+    const auto vectors = write("v.nrrd", nrrd_4d +
+                                             "sizes: 3 2 1 1\nkinds: vector domain domain "
+                                             "domain\n\n123456");
+    EXPECT_FALSE(contents_of(vectors).is_colour);
+}
+
+TEST_F(HeaderWords, OfNrrdSayWhatSegmentsAre) {
+    const std::string cube = "NRRD0005\ntype: uint8\ndimension: 3\nencoding: raw\nsizes: 2 1 1\n";
+    const auto path =
+        write("a.seg.nrrd", cube +
+                                "Segment0_ID:=s_1\nSegment0_LabelValue:=1\nSegment0_Name:=liver\n"
+                                "Segment0_Layer:=0\nSegment1_ID:=s_2\nSegment1_LabelValue:=4\n"
+                                "Segment1_Name:=left kidney\nSegment1_Layer:=1\n\n12");
+    read_volume(path);
+    expect_said(
+        "a segmentation of 3D Slicer, whose samples are labels: 1 is \"liver\", 4 is \"left "
+        "kidney\" (channel 1)");
+    files_of_volume(path);
+    EXPECT_TRUE(heard_.texts.empty());
+    read_volume(write("q.nrrd", cube + "old min: -1\nold max: 1\n\n12"));
+    expect_said("old min, old max: found -1 and 1");
+}
+
+TEST_F(HeaderWords, OfMetaImageAreUsedOrNamed) {
+    const std::string header = "ObjectType = Image\nNDims = 3\nDimSize = 2 1 1\n";
+    const std::string data = "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n\x01\x02";
+    const auto file = [&](const std::string& fields) {
+        return write("a.mha", header + fields + data);
+    };
+    EXPECT_EQ(read_volume(file("DistanceUnits = um\n")).grid().unit, "um");
+    EXPECT_EQ(read_volume(file("DistanceUnits = ?\n")).grid().unit, "");
+    // intensity = slope * element + offset (MetaIO, metaImage.h)
+    const Volume scaled = read_volume(
+        file("ElementToIntensityFunctionSlope = 10\nElementToIntensityFunctionOffset = -3\n"));
+    EXPECT_EQ(testing::samples_of<std::uint8_t>(scaled), (std::vector<std::uint8_t>{7, 17}));
+    EXPECT_TRUE(heard_.texts.empty());
+    read_volume(file("CenterOfRotation = 1 2 3\n"));
+    expect_said("CenterOfRotation: found 1 2 3, which is not used");
+    expect_error([&] { read_volume(file("ElementToIntensityFunctionSlope = 0\n")); },
+                 {"ElementToIntensityFunctionSlope: found '0', expected a number but 0"});
+    expect_error([&] { read_volume(file("HeaderSizePerSlice = 12\n")); },
+                 {"HeaderSizePerSlice: found '12'"});
+    expect_error(
+        [&] {
+            read_volume(write("a.mha", "ObjectType = Tube\nNDims = 3\nDimSize = 2 1 1\n" + data));
+        },
+        {"ObjectType: found 'Tube', expected Image"});
+    const auto colours =
+        write("c.mha", header + "ElementNumberOfChannels = 3\n" + data + "\x03\x04\x05\x06");
+    EXPECT_TRUE(contents_of(colours).is_colour);
+    // MetaIO writes the axes of one file as "2D".
+    write("1.raw", "1");
+    write("2.raw", "2");
+    const auto list = write("l.mhd",
+                            "NDims = 3\nDimSize = 1 1 2\nElementType = MET_UCHAR\n"
+                            "ElementDataFile = LIST 2D\n1.raw\n2.raw\n");
+    EXPECT_EQ(testing::samples_of<std::uint8_t>(read_volume(list)),
+              (std::vector<std::uint8_t>{'1', '2'}));
+}
+
+}  // namespace
+}  // namespace lamina
