@@ -34,9 +34,10 @@ struct BoundaryEdge {
     }
 };
 
+// Returns the places of an open face's corners.
 std::array<std::int32_t, 3> open_face(const TetMesh& mesh, std::int32_t index) {
     const TetFace& face = mesh.open_faces()[index];
-    return corners_of_face(mesh.tets()[face.tet], face.face);
+    return corners_of_face(mesh.place(mesh.tets()[face.tet]), face.face);
 }
 
 std::vector<BoundaryEdge> boundary_edges(const TetMesh& mesh) {
@@ -139,7 +140,8 @@ class OverlapSearch {
 
   private:
     std::array<std::int32_t, 3> points_of(const TetFace& face) const {
-        std::array<std::int32_t, 3> points = corners_of_face(mesh_.tets()[face.tet], face.face);
+        std::array<std::int32_t, 3> points =
+            corners_of_face(mesh_.place(mesh_.tets()[face.tet]), face.face);
         std::sort(points.begin(), points.end());
         return points;
     }

@@ -222,7 +222,11 @@ LAMINA_CLONE_FOR_FMA std::int32_t RayWalk::step(TetSegment& segment, RayFront& f
     areas[k] = -to_top[i].area;
     segment.out = crossing(front);
     segment.out.at = std::max(segment.out.at, segment.in.at);
-    return mesh_.neighbors()[segment.tet][face];
+    const std::int32_t behind = mesh_.neighbors()[segment.tet][face];
+    if (mesh_.has_copies() && behind != TetMesh::no_neighbor) {
+        for (Corner& corner : p) corner.point = mesh_.corner_at(behind, corner.point);
+    }
+    return behind;
 }
 
 void RayWalk::list(std::vector<TetSegment>& segments) const {

@@ -89,13 +89,15 @@ class RayWalk {
             if (!visit(segment) || next == TetMesh::no_neighbor) return;
             segment.tet = next;
             segment.in = segment.out;
+            if (!mesh_.has_copies()) continue;
+            for (std::size_t i = 0; i < 3; ++i) segment.in.corners[i] = front.corners[i].point;
         }
     }
 
     RayFront front_of(const TetFace& face) const;
     static FaceCrossing crossing(const RayFront& front);
     // Sets segment.out, where the line leaves segment.tet, and makes `front` that face, seen from
-    // the tet behind. Returns the tet behind, or no_neighbor.
+    // the tet behind, with that tet's corners. Returns the tet behind, or no_neighbor.
     std::int32_t step(TetSegment& segment, RayFront& front) const;
 
     // Lists the segments from all entries, by ascending parameter at which the line enters the tet.

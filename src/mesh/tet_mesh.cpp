@@ -2,6 +2,7 @@
 #include "mesh/tet_mesh.h"
 
 #include <atomic>
+#include <bit>
 #include <cassert>
 #include <numeric>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include "base/error.h"
 #include "base/parallel.h"
+#include "mesh/point_table.h"
 #include "mesh/predicates.h"
 
 namespace lamina {
@@ -223,20 +225,15 @@ TetMesh::TetMesh(MeshData data, const std::string& name)
     findings_.cells = data.cells;
     findings_.tets_read = std::ssize(tets_);
     check_corners(name);
-    drop_repeated_corners();
-    if (tets_.empty()) fail("{}: all {} tets repeat a corner", name, findings_.tets_read);
+    drop_repeated_corners(name);
     check_points(name);
-    FaceMatching matching = match_faces(tets_, points_.size());
-    if (!matching.duplicates.empty()) {
-        findings_.duplicates = std::ssize(matching.duplicates);
-        std::vector<char> dropped(tets_.size(), 0);
-        for (const std::int32_t tet : matching.duplicates) dropped[tet] = 1;
-        drop(dropped);
-        matching = match_faces(tets_, points_.size());
-    }
-    neighbors_ = std::move(matching.neighbors);
-    findings_.boundary_faces = matching.boundary_faces;
-    findings_.nonmanifold_faces = matching.nonmanifold_faces;
+    // Meshes of cells that share no points have more points than tets, others about a fifth. With
+    // so many, copies are looked for at once, so that faces are matched only once.
+    const bool cells_apart = points_.size() >= tets_.size();
+    if (!cells_apart) find_neighbors();
+    const bool joined = find_copies();
+    if (joined) drop_repeated_corners(name);
+    if (joined || cells_apart) find_neighbors();
     orient();
     orient_flat();
     cut_folded_faces();
@@ -246,6 +243,13 @@ TetMesh::TetMesh(MeshData data, const std::string& name)
 std::array<glm::dvec3, 3> TetMesh::corners(const TetFace& face) const {
     const auto [a, b, c] = corners_of_face(tets_[face.tet], face.face);
     return {points_[a], points_[b], points_[c]};
+}
+
+std::int32_t TetMesh::corner_at(std::int32_t tet, std::int32_t point) const {
+    const Tet& corners = tets_[tet];
+    std::size_t i = 0;
+    while (i < 3 && place(corners[i]) != place(point)) ++i;
+    return corners[i];
 }
 
 void TetMesh::check_corners(const std::string& name) const {
@@ -293,15 +297,65 @@ void TetMesh::drop(const std::vector<char>& dropped) {
     for (MeshScalar& scalar : cell_scalars_) compact(scalar.values);
 }
 
-void TetMesh::drop_repeated_corners() {
+void TetMesh::drop_repeated_corners(const std::string& name) {
     std::vector<char> dropped(tets_.size(), 0);
     for (std::size_t tet = 0; tet < tets_.size(); ++tet) {
-        if (!repeats_corner(tets_[tet])) continue;
+        if (!repeats_corner(place(tets_[tet]))) continue;
         dropped[tet] = 1;
         ++findings_.repeated_corners;
     }
     findings_.degenerate = findings_.repeated_corners;
     if (findings_.repeated_corners > 0) drop(dropped);
+    if (tets_.empty()) fail("{}: all {} tets repeat a corner", name, findings_.tets_read);
+}
+
+// Finds the tets across all faces, and drops duplicates.
+void TetMesh::find_neighbors() {
+    const auto match = [&] {
+        if (!has_copies()) return match_faces(tets_, points_.size());
+        std::vector<Tet> at_places;
+        at_places.reserve(tets_.size());
+        for (const Tet& tet : tets_) at_places.push_back(place(tet));
+        return match_faces(at_places, points_.size());
+    };
+    FaceMatching matching = match();
+    if (!matching.duplicates.empty()) {
+        findings_.duplicates += std::ssize(matching.duplicates);
+        std::vector<char> dropped(tets_.size(), 0);
+        for (const std::int32_t tet : matching.duplicates) dropped[tet] = 1;
+        drop(dropped);
+        matching = match();
+    }
+    neighbors_ = std::move(matching.neighbors);
+    findings_.boundary_faces = matching.boundary_faces;
+    findings_.nonmanifold_faces = matching.nonmanifold_faces;
+}
+
+// Finds copies of points on open faces (on all faces if neighbours are not known yet), and tells
+// whether there are any. Other points need none: each of their faces has its two tets.
+bool TetMesh::find_copies() {
+    std::vector<char> open(points_.size(), 0);
+    for (std::size_t tet = 0; tet < tets_.size(); ++tet) {
+        for (std::size_t face = 0; face < 4; ++face) {
+            if (!neighbors_.empty() && neighbors_[tet][face] != no_neighbor) continue;
+            for (const std::int32_t corner : corners_of_face(tets_[tet], face)) open[corner] = 1;
+        }
+    }
+    PointTable table(points_);
+    table.reserve(static_cast<std::size_t>(std::ranges::count(open, 1)));
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        if (open[i] == 0) continue;
+        const auto point = static_cast<std::int32_t>(i);
+        const std::int32_t first = table.add(point);
+        if (first == point) continue;
+        if (places_.empty()) {
+            places_.resize(points_.size());
+            std::iota(places_.begin(), places_.end(), 0);
+        }
+        places_[i] = first;
+        ++findings_.copies;
+    }
+    return has_copies();
 }
 
 void TetMesh::orient() {
@@ -340,8 +394,8 @@ void TetMesh::orient_flat() {
                 left.push_back(index);
                 continue;
             }
-            const Tet& other = tets_[neighbors_[tet][face]];
-            if (!opposite_sides(tets_[tet], face, other)) turn(tets_[tet], neighbors_[tet]);
+            const Tet other = place(tets_[neighbors_[tet][face]]);
+            if (!opposite_sides(place(tets_[tet]), face, other)) turn(tets_[tet], neighbors_[tet]);
             open[tet] = 0;
         }
         progress = left.size() < waiting.size();
@@ -355,7 +409,7 @@ void TetMesh::cut_folded_faces() {
         for (std::size_t face = 0; face < 4; ++face) {
             const std::int32_t other = neighbors_[tet][face];
             if (other == no_neighbor) continue;
-            if (opposite_sides(tets_[tet], face, tets_[other])) continue;
+            if (opposite_sides(place(tets_[tet]), face, place(tets_[other]))) continue;
             neighbors_[tet][face] = no_neighbor;
             folded.fetch_add(1, std::memory_order_relaxed);
         }
@@ -374,7 +428,7 @@ void TetMesh::list_open_faces() {
 }
 
 MeshScalar average_to_points(std::size_t point_count, std::span<const Tet> tets,
-                             const MeshScalar& scalar) {
+                             const MeshScalar& scalar, std::span<const std::int32_t> cell_of_tet) {
     assert(scalar.values.size() == tets.size());
     const auto finite =
         std::ranges::find_if(scalar.values, [](double value) { return std::isfinite(value); });
@@ -382,40 +436,104 @@ MeshScalar average_to_points(std::size_t point_count, std::span<const Tet> tets,
 
     MeshScalar result{scalar.name, std::vector<double>(point_count, 0.0)};
     std::vector<std::int32_t> around(point_count, 0);
-    for (const Tet& tet : tets) {
-        for (const std::int32_t corner : tet) ++around[corner];
-    }
-    for (std::size_t i = 0; i < tets.size(); ++i) {
-        for (const std::int32_t corner : tets[i]) {
-            // Values are divided before they are added, so that no sum overflows.
-            const auto point = static_cast<std::size_t>(corner);
-            result.values[point] += scalar.values[i] / around[point];
+    // Calls use(point, tet) for each cell around each point once.
+    const auto for_cells = [&](const auto& use) {
+        const bool by_cells = cell_of_tet.size() == tets.size();  // a caller may have changed tets
+        std::vector<std::int32_t> last(by_cells ? point_count : 0, -1);
+        for (std::size_t i = 0; i < tets.size(); ++i) {
+            for (const std::int32_t corner : tets[i]) {
+                const auto point = static_cast<std::size_t>(corner);
+                if (by_cells && std::exchange(last[point], cell_of_tet[i]) == cell_of_tet[i])
+                    continue;
+                use(point, i);
+            }
         }
-    }
+    };
+    for_cells([&](std::size_t point, std::size_t) { ++around[point]; });
+    for_cells([&](std::size_t point, std::size_t tet) {
+        // Values are divided before they are added, so that no sum overflows.
+        result.values[point] += scalar.values[tet] / around[point];
+    });
     for (std::size_t point = 0; point < point_count; ++point) {
         if (around[point] == 0) result.values[point] = elsewhere;
     }
     return result;
 }
 
+const MeshScalar* only_array(const std::vector<MeshScalar>& cell_scalars) {
+    if (cell_scalars.empty()) return nullptr;
+    const MeshScalar& first = cell_scalars.front();
+    const bool others = std::ranges::any_of(cell_scalars, [&](const MeshScalar& scalar) {
+        return scalar.name != first.name && scalar.name != first.name + ".x" &&
+               scalar.name != first.name + ".y" && scalar.name != first.name + ".z";
+    });
+    return others ? nullptr : &first;
+}
+
 std::vector<glm::dvec3> point_gradients(const TetMesh& mesh, std::span<const double> scalar) {
     const double unit = glm::distance(mesh.bounds().min, mesh.bounds().max);
+    const std::vector<std::int32_t> equal = equal_points(mesh, scalar);
+    const auto one_of = [&](std::size_t point) { return equal.empty() ? point : equal[point]; };
     std::vector<Weighted> points(mesh.points().size());
     for (const Tet& tet : mesh.tets()) {
         const Weighted one = weighted_gradient(mesh, scalar, tet, unit);
         if (!(one.weight > 0)) continue;
         for (const std::int32_t corner : tet) {
-            Weighted& point = points[corner];
+            Weighted& point = points[one_of(corner)];
             point.sum += one.sum;
             point.weight += one.weight;
         }
     }
     std::vector<glm::dvec3> gradients;
     gradients.reserve(points.size());
-    for (const Weighted& point : points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Weighted& point = points[one_of(i)];
         gradients.push_back(point.weight > 0 ? point.sum / point.weight / unit : glm::dvec3(0));
     }
     return gradients;
+}
+
+std::vector<std::int32_t> equal_points(const TetMesh& mesh, std::span<const double> scalar) {
+    if (!mesh.has_copies()) return {};
+    // The points by place: those of place p are at start[p] .. start[p + 1] - 1.
+    const auto places = mesh.places();
+    std::vector<std::int32_t> start(places.size() + 1, 0), sorted(places.size());
+    for (const std::int32_t place : places) ++start[place + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<std::int32_t> next(start.begin(), start.end() - 1);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        sorted[next[places[i]]++] = static_cast<std::int32_t>(i);
+    const auto value = [&](std::int32_t point) {  // -0 becomes 0, and each NaN is one value
+        return std::bit_cast<std::uint64_t>(scalar[point] + 0.0);
+    };
+    std::vector<std::int32_t> equal(places.size());
+    parallel_for(std::ssize(places), points_per_task, [&](std::size_t place) {
+        const std::span copies(sorted.begin() + start[place], sorted.begin() + start[place + 1]);
+        std::ranges::sort(copies, {}, [&](std::int32_t p) { return std::pair(value(p), p); });
+        for (std::size_t i = 0, first = 0; i < copies.size(); ++i) {
+            if (value(copies[i]) != value(copies[first])) first = i;
+            equal[copies[i]] = copies[first];
+        }
+    });
+    return equal;
+}
+
+std::int64_t count_jumps(const TetMesh& mesh, std::span<const double> scalar) {
+    const std::vector<std::int32_t> equal = equal_points(mesh, scalar);
+    if (equal.empty()) return 0;
+    std::atomic<std::int64_t> jumps{0};
+    parallel_for(std::ssize(mesh.tets()), grain, [&](std::int64_t tet) {
+        for (std::size_t face = 0; face < 4; ++face) {
+            const std::int32_t other = mesh.neighbors()[tet][face];
+            if (other <= tet) continue;  // boundary, or counted from the other tet
+            const auto corners = corners_of_face(mesh.tets()[tet], face);
+            const bool jumps_here = std::ranges::any_of(corners, [&](std::int32_t corner) {
+                return equal[corner] != equal[mesh.corner_at(other, corner)];
+            });
+            if (jumps_here) jumps.fetch_add(1, std::memory_order_relaxed);
+        }
+    });
+    return jumps;
 }
 
 }  // namespace lamina

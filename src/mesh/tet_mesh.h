@@ -14,19 +14,22 @@ struct MeshFindings {
     std::int64_t tets_read = 0;
     // Tets of exactly zero volume: flat_tets(), which TetMesh keeps, and repeated_corners.
     std::int64_t degenerate = 0;
-    std::int64_t repeated_corners = 0;  // tets with a corner twice, which are dropped
+    std::int64_t repeated_corners = 0;  // tets with a corner (or a copy) twice, which are dropped
     std::int64_t inverted = 0;          // tets of negative orientation, whose corners are reordered
     std::int64_t duplicates = 0;  // tets with the same corners as an earlier tet, which are dropped
     std::int64_t boundary_faces = 0;     // faces of one tet
     std::int64_t nonmanifold_faces = 0;  // faces of three or more tets
     std::int64_t folded_faces = 0;       // faces of two tets that lie on the same side of it
     std::int64_t unused_points = 0;
-    CellCounts cells;  // the file's cells and points that were changed or left out
+    std::int64_t copies = 0;  // points at the place of an earlier one (TetMesh::places())
+    CellCounts cells;         // the file's cells and points that were changed or left out
 
     bool conforming() const { return nonmanifold_faces == 0; }
 };
 
 // A tetrahedral mesh: tets of positive orientation, with their neighbours. Immutable.
+// Adjacency is by place, values are by corner: points at exactly equal places (copies) are one for
+// all that compares tets by their corners, and each has its own value.
 class TetMesh {
   public:
     static constexpr std::int32_t no_neighbor = -1;
@@ -40,6 +43,20 @@ class TetMesh {
     // Returns the tets across each tet's faces; no_neighbor: it is boundary, folded or nonmanifold.
     std::span<const std::array<std::int32_t, 4>> neighbors() const { return neighbors_; }
     std::span<const TetFace> open_faces() const { return open_faces_; }
+
+    bool has_copies() const { return !places_.empty(); }
+    // Returns for each point the first one at its place; empty if the mesh has no copies. A copy
+    // whose faces all have their two tets by index joins nothing, and may not be found.
+    std::span<const std::int32_t> places() const { return places_; }
+    std::int32_t place(std::int32_t point) const {
+        return places_.empty() ? point : places_[static_cast<std::size_t>(point)];
+    }
+    // Returns a tet's corners as places, which are the same in all tets that share them.
+    Tet place(const Tet& tet) const {
+        return {place(tet[0]), place(tet[1]), place(tet[2]), place(tet[3])};
+    }
+    // Returns the corner of a tet at the place of `point`, which must be one of its corners'.
+    std::int32_t corner_at(std::int32_t tet, std::int32_t point) const;
     // Returns the corners of a face, counter-clockwise as seen from outside of its tet.
     std::array<glm::dvec3, 3> corners(const TetFace& face) const;
 
@@ -59,13 +76,16 @@ class TetMesh {
     void check_corners(const std::string& name) const;
     void check_points(const std::string& name);
     void drop(const std::vector<char>& dropped);  // drops marked tets, with their cell scalars
-    void drop_repeated_corners();
+    void drop_repeated_corners(const std::string& name);
+    void find_neighbors();
+    bool find_copies();
     void orient();
     void orient_flat();
     void cut_folded_faces();
     void list_open_faces();
 
     std::vector<glm::dvec3> points_;
+    std::vector<std::int32_t> places_;
     std::vector<Tet> tets_;
     std::vector<std::array<std::int32_t, 4>> neighbors_;
     std::vector<TetFace> open_faces_;
@@ -78,14 +98,27 @@ class TetMesh {
 // Converts cell data to point data: the plain mean over the tets around a point, as in VTK's
 // vtkCellDataToPointData. The mean by volume would be off by slope * (H - h) / 2 in a linear field
 // between cells of lengths h < H, the plain mean by half of that. A NaN reaches all points of its
-// tet. Points without tets get the first finite value of all.
+// tet. Points without tets get the first finite value of all. `cell_of_tet`: as in MeshData; the
+// mean is then over the file's cells.
 MeshScalar average_to_points(std::size_t point_count, std::span<const Tet> tets,
-                             const MeshScalar& scalar);
+                             const MeshScalar& scalar,
+                             std::span<const std::int32_t> cell_of_tet = {});
+
+// Returns the only array of cell data, which is drawn if there are no scalars at points and a scene
+// names none, or null. A vector's length stands for the vector.
+const MeshScalar* only_array(const std::vector<MeshScalar>& cell_scalars);
 
 // Returns the gradient at the points, in scalar units per world unit (docs/numerics.md, section
-// 10): the mean over the tets around a point, weighted by volume. Tets without volume, or with a
-// value that is not finite, do not count; the gradient is 0 if no other tet is around the point.
+// 10): the mean over the tets around a point, weighted by volume. Copies with equal values count as
+// one point. Tets without volume, or with a value that is not finite, do not count; the gradient is
+// 0 if no other tet is around the point.
 std::vector<glm::dvec3> point_gradients(const TetMesh& mesh, std::span<const double> scalar);
+
+// Returns for each point the first one at its place with its value; empty if there are no copies.
+std::vector<std::int32_t> equal_points(const TetMesh& mesh, std::span<const double> scalar);
+
+// Counts the faces of two tets that have different values at a corner.
+std::int64_t count_jumps(const TetMesh& mesh, std::span<const double> scalar);
 
 struct ScalarRange {
     ValueRange range;             // range of the finite values

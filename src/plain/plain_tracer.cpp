@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cuts each ray at all planes of samples, or by all tets (meet()), and at knots, turns and kinks
-// (PlainRay::cuts()). Integrates each part by a Gauss rule, halved until halves agree (add()).
 #include "plain/plain_tracer.h"
 
 #include <algorithm>
@@ -70,7 +68,6 @@ void cut(Span& span, const HalfSpace& half, bool keeps_plane, const View::Ray& r
     if (slope < 0) span.to = std::min(span.to, -start / slope);
     if (slope == 0 && !(start > 0 || (start == 0 && keeps_plane))) span.to = -INFINITY;
 }
-
 using Field = glm::dvec4;  // the gradient in world space (x, y, z) and the scalar (w)
 
 // A part of a ray in one cell or tet, and the field from t = 0 at its front to t = 1 at its back.
@@ -79,7 +76,6 @@ struct Segment {
     double length;  // world units of its visible part
     Cubic<Field> field;
 };
-
 double scalar_at(const Volume& volume, const glm::dvec3& index) {
     const auto& size = volume.grid().size;
     const glm::i64vec3 i(index);
@@ -114,9 +110,8 @@ Cubic<Field> mixed(Cubic<Field> a, const Cubic<Field>& b, double x0, double x1) 
     return a;
 }
 
-// Cuts a ray at all planes of samples. The field of a cell is trilinear (docs/numerics.md, section
-// 9): it is mixed along one axis after the other, and NaN if a corner is NaN. With "lookup":
-// "nearest" a cell is a voxel, and all its corners are its sample.
+// Cuts a ray at all faces of cells, or of voxels, whose corners are all one sample. Fields are
+// mixed along one axis after the other (docs/numerics.md, section 9), and NaN if a corner is NaN.
 std::vector<Segment> meet(const Volume& volume, const View::Ray& world, Span seen) {
     const Grid& grid = volume.grid();
     const View::Ray ray{grid.to_index(world.origin), grid.direction_to_index(world.direction)};
@@ -158,10 +153,11 @@ struct PlainMesh {
     std::vector<Field> fields;  // one a point
     std::vector<Tet> tets;      // the visible ones
     // Returns the half space behind the face opposite a corner, which the tet is in. Both tets of a
-    // face begin with its least point, so that their planes are equal to the last bit.
+    // face begin with its least place, so that their planes are equal to the last bit.
     HalfSpace behind(const Tet& tet, int opposite) const {
         auto face = corners_of_face(tet, opposite);
-        std::ranges::rotate(face, std::ranges::min_element(face));
+        const auto place = [&](int i) { return std::array{points[i].x, points[i].y, points[i].z}; };
+        std::ranges::rotate(face, std::ranges::min_element(face, {}, place));
         const glm::dvec3 a = points[face[0]];
         return {a, glm::cross(points[face[2]] - a, points[face[1]] - a)};
     }
@@ -178,10 +174,12 @@ struct PlainMesh {
 };
 
 // Keeps tets with volume and finite values. The gradient at a point is the mean of those of the
-// tets around it, weighted by volume (docs/numerics.md, section 10).
+// tets around it and its copies of one value, weighted by volume (docs/numerics.md, section 10).
 PlainMesh plain_mesh(const SceneMesh& data) {
     PlainMesh mesh{data.mesh.points(), {}, {}};
     for (const double scalar : data.scalar.values) mesh.fields.emplace_back(0, 0, 0, scalar);
+    const std::vector<std::int32_t> firsts = equal_points(data.mesh, data.scalar.values);
+    const auto first = [&](std::int32_t i) { return firsts.empty() ? i : firsts[i]; };
     std::vector<Field> sums(mesh.fields.size(), Field(0));  // volume times gradient, volume
     for (const Tet& tet : data.mesh.tets()) {
         Field sum(0);
@@ -195,10 +193,11 @@ PlainMesh plain_mesh(const SceneMesh& data) {
         }
         if (!shows) continue;
         mesh.tets.push_back(tet);
-        for (const std::int32_t corner : tet) sums[corner] += sum;
+        for (const std::int32_t corner : tet) sums[first(corner)] += sum;
     }
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        if (sums[i].w > 0) mesh.fields[i] += Field(glm::dvec3(sums[i]) / sums[i].w, 0);
+    for (std::int32_t i = 0; i < std::ssize(sums); ++i)
+        if (const Field& s = sums[first(i)]; s.w > 0)
+            mesh.fields[i] += Field(glm::dvec3(s) / s.w, 0);
     return mesh;
 }
 
@@ -364,7 +363,6 @@ PlainPicture trace(const Scene& scene, const Data& data) {
     });
     return picture;
 }
-
 }  // namespace
 
 PlainPicture trace_plainly(const Scene& scene, const Volume& volume) {
@@ -373,5 +371,4 @@ PlainPicture trace_plainly(const Scene& scene, const Volume& volume) {
 PlainPicture trace_plainly(const Scene& scene, const SceneMesh& mesh) {
     return trace(scene, plain_mesh(mesh));
 }
-
 }  // namespace lamina

@@ -206,7 +206,7 @@ FanGeometry::Fronts FanGeometry::fronts_of(std::int32_t index) const {
     const FaceSigns signs = signer_.signs(tet);
     Fronts fronts;
     for (std::size_t face = 0; face < 4; ++face)
-        fronts[face] = is_front(mesh_.mesh.tets()[tet], face, signs);
+        fronts[face] = is_front(mesh_.mesh.place(mesh_.mesh.tets()[tet]), face, signs);
     return fronts;
 }
 
@@ -400,9 +400,10 @@ TetGeometry::Written FanGeometry::write(const CellFragment& cell_fragment,
 
 TetGeometry::Written FanGeometry::write_pairs(const Owner& owner, const Corners& corners,
                                               const Place& place) const {
-    const FacePairs pairs(
-        window_, plan_.near_depth, mesh_.mesh.tets()[static_cast<std::size_t>(owner.tet)],
-        {corners[0].seen, corners[1].seen, corners[2].seen, corners[3].seen}, fronts_of(owner.tet));
+    const FacePairs pairs(window_, plan_.near_depth,
+                          mesh_.mesh.place(mesh_.mesh.tets()[static_cast<std::size_t>(owner.tet)]),
+                          {corners[0].seen, corners[1].seen, corners[2].seen, corners[3].seen},
+                          fronts_of(owner.tet));
     const auto point_of = [&](const FacePairs::Hit& hit) {
         Point point{hit.inverse_z, hit.z, glm::dvec4(0)};
         for (std::size_t i = 0; i < 4; ++i) point.values += hit.shares[i] * corners[i].values;

@@ -18,7 +18,8 @@ class FacePairs {
   public:
     using Fronts = std::array<bool, 4>;  // for each corner: is the opposite face a front face?
 
-    // `seen`: the corners relative to the eye, along right, up and forward.
+    // `tet`: the corners' places. `seen`: the corners relative to the eye, along right, up and
+    // forward.
     FacePairs(const WindowView& window, double near_depth, const Tet& tet,
               const std::array<glm::dvec3, 4>& seen, const Fronts& fronts);
 

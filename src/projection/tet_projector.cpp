@@ -120,7 +120,8 @@ bool is_needle(const std::array<glm::dvec3, 4>& corners) {
     return double_area <= least_width * distance * longest_edge;
 }
 
-// Returns the corners of a face by ascending point number: one order for both tets that share it.
+// Returns the corners of a face by ascending place (`tet`: the corners' places): one order for both
+// tets that share it.
 std::array<std::size_t, 3> sorted_face(const Tet& tet, std::size_t face) {
     std::array<std::size_t, 3> corners = face_corners[face];
     const auto sort = [&](std::size_t& low, std::size_t& high) {
@@ -377,7 +378,7 @@ std::optional<FragmentKind> TetProjector::project(const CellFragment& cell_fragm
         pixel_bounds(outline.points(), tets_.margin, view.width, view.height).empty())
         return std::nullopt;
     const FaceSigns signs = signer_.signs(static_cast<std::size_t>(cell_fragment.tet));
-    bool float_suffices = set_depths(seen, tet, signs, cut, corners, record);
+    bool float_suffices = set_depths(seen, tets_.mesh.place(tet), signs, cut, corners, record);
     if (piece != nullptr) {
         set_fragment(seen, field, *piece, record.fragment);
     } else {

@@ -353,9 +353,13 @@ LAMINA_EXPORT(set_up_vectors);
 
 namespace {
 
-std::array<std::size_t, 4> sorted_corners(const Tet& tet) {
+// Returns a tet's corners, sorted by place: all tets around a face take its corners in one order.
+std::array<std::size_t, 4> sorted_corners(const TetMesh& mesh, const Tet& tet) {
     std::array<std::size_t, 4> corners;
     for (std::size_t i = 0; i < 4; ++i) corners[i] = static_cast<std::size_t>(tet[i]);
+    constexpr int bits = 32;  // if there are copies, the place stands above the corner's
+    for (std::size_t i = 0; i < 4 && mesh.has_copies(); ++i)
+        corners[i] |= static_cast<std::size_t>(mesh.place(tet[i])) << bits;
     const auto sort = [&](std::size_t i, std::size_t j) {
         const std::size_t low = std::min(corners[i], corners[j]);
         corners[j] = std::max(corners[i], corners[j]);
@@ -366,6 +370,7 @@ std::array<std::size_t, 4> sorted_corners(const Tet& tet) {
     sort(0, 2);
     sort(1, 3);
     sort(1, 2);
+    for (std::size_t& corner : corners) corner &= (std::size_t{1} << bits) - 1;
     return corners;
 }
 
@@ -391,7 +396,8 @@ void load(const TetsInView& tets, std::span<const CellFragment> cell_fragments, 
     for (std::size_t lane = 0; lane < TetSetup::most_cell_fragments; ++lane) {
         const CellFragment& cell_fragment =
             cell_fragments[std::min(lane, cell_fragments.size() - 1)];
-        const auto corners = sorted_corners(all[static_cast<std::size_t>(cell_fragment.tet)]);
+        const auto corners =
+            sorted_corners(tets.mesh, all[static_cast<std::size_t>(cell_fragment.tet)]);
         for (std::size_t i = 0; i < 4; ++i) {
             const glm::dvec3& point = tets.mesh.points()[corners[i]];
             lanes.x[i][lane] = point.x;

@@ -244,6 +244,7 @@ void PacketWalk::enter(std::size_t lane, const RayWalk::Entry& entry) {
 
 void PacketWalk::step() {
     lanes_.entry = 1 - lanes_.entry;
+    if (mesh_.has_copies()) for_each_lane(walking_, [&](std::size_t lane) { enter_again(lane); });
     LAMINA_DISPATCH(step_lanes_of)(lanes_);
     for_each_lane(walking_, [&](std::size_t lane) {
         passed_[lane] = tets_[lane];
@@ -263,6 +264,7 @@ std::int32_t PacketWalk::tet_behind(std::size_t lane) const {
 void PacketWalk::move(std::size_t lane, std::int32_t tet) {
     if (tet == TetMesh::no_neighbor || ++steps_[lane] > mesh_.tets().size()) return stop(lane);
     tets_[lane] = tet;
+    if (mesh_.has_copies()) take_corners(lane);
     const auto in_front = [&](std::size_t i) {
         return static_cast<std::int32_t>(lanes_.front[i].point[lane]);
     };
@@ -272,6 +274,26 @@ void PacketWalk::move(std::size_t lane, std::int32_t tet) {
     set_vector(lanes_.top, lane, mesh_.points()[point]);
     lanes_.top_value[lane] = values_[point];
     lanes_.top_point[lane] = top;
+}
+
+// Makes the corners of the entered face those of the tet behind it.
+void PacketWalk::take_corners(std::size_t lane) {
+    for (WalkLanes::Corner& rows : lanes_.front) {
+        const auto point = static_cast<std::int32_t>(rows.point[lane]);
+        const std::int32_t own = mesh_.corner_at(tets_[lane], point);
+        rows.point[lane] = own;
+        rows.value[lane] = values_[own];
+    }
+}
+
+// Makes in(), which was out() of the tet before, that of the tet which the line enters.
+void PacketWalk::enter_again(std::size_t lane) {
+    FaceCrossing entered = crossing(lanes_.in(), lane);
+    for (std::size_t i = 0; i < 3; ++i) {
+        entered.corners[i] = static_cast<std::int32_t>(lanes_.front[i].point[lane]);
+        lanes_.in().corners[i][lane] = entered.corners[i];
+    }
+    lanes_.in().value[lane] = entered.interpolate(values_);
 }
 
 // Takes the step of one line, exactly, if rounding left a sign unknown.

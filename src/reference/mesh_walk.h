@@ -88,6 +88,8 @@ class PacketWalk {
     std::int32_t tet_behind(std::size_t lane) const;
     std::int32_t step_alone(std::size_t lane);
     void move(std::size_t lane, std::int32_t tet);
+    void take_corners(std::size_t lane);
+    void enter_again(std::size_t lane);
     static FaceCrossing crossing(const WalkLanes::Crossing& rows, std::size_t lane);
     void set_crossing(std::size_t lane, const FaceCrossing& crossing);
     RayFront front_of(std::size_t lane) const;

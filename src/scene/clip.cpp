@@ -34,15 +34,20 @@ using Prism = std::array<std::int32_t, 6>;
 //   3. Cut the others: one corner inside leaves a tet, two or three leave a prism of tets.
 struct MeshCutter {
     MeshData& mesh;
-    double diagonal;                     // length of the diagonal of the mesh's bounding box
+    double diagonal;  // length of the diagonal of the mesh's bounding box
+    // The first point at each point's place; empty if the mesh has no copies (TetMesh::places()).
+    std::vector<std::int32_t> places;
     std::vector<double> distances = {};  // points' distances from the plane: > 0 inside, 0 on it
     // Numbers of the points at which edges are cut; the key holds the numbers of an edge's ends.
     std::unordered_map<std::uint64_t, std::int32_t> cut_points = {};
+    // If there are copies: the first of the points at which edges between two places are cut.
+    std::unordered_map<std::uint64_t, std::int32_t> cut_places = {};
 
     void cut(const HalfSpace& half) {
         measure_distances(half);
         if (std::ranges::none_of(distances, [](double d) { return d < 0; })) return;
         cut_points.clear();
+        cut_places.clear();
         std::vector<Tet> tets = std::exchange(mesh.tets, {});
         mesh.tets.reserve(tets.size());
         for (const Tet& tet : tets) add_kept(tet);
@@ -61,6 +66,12 @@ struct MeshCutter {
     }
 
     double distance(std::int32_t point) const { return distances[static_cast<std::size_t>(point)]; }
+    std::int32_t place(std::int32_t point) const {
+        return places.empty() ? point : places[static_cast<std::size_t>(point)];
+    }
+    static std::uint64_t edge(std::int32_t a, std::int32_t b) {
+        return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b);
+    }
 
     void add_kept(const Tet& tet) {
         int inside = 0, outside = 0;
@@ -107,14 +118,18 @@ struct MeshCutter {
         return tet;
     }
 
-    // Returns the point at which an edge leaves the half-space. All tets at the edge share it.
+    // Returns the point at which an edge leaves the half-space. All tets at the edge share it, and
+    // copies of the edge are cut at exactly the same place.
     std::int32_t cut_point(std::int32_t inside, std::int32_t outside) {
         if (distance(outside) == 0) return outside;
-        const auto [a, b] = std::minmax(inside, outside);
-        const auto key = static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b);
-        const auto [found, is_new] =
-            cut_points.try_emplace(key, static_cast<std::int32_t>(mesh.points.size()));
+        const bool upwards = place(inside) < place(outside);
+        const std::int32_t a = upwards ? inside : outside, b = upwards ? outside : inside;
+        const auto number = static_cast<std::int32_t>(mesh.points.size());
+        const auto [found, is_new] = cut_points.try_emplace(edge(a, b), number);
         if (!is_new) return found->second;
+        if (!places.empty())
+            places.push_back(
+                cut_places.try_emplace(edge(place(a), place(b)), number).first->second);
         const double share = distance(a) / (distance(a) - distance(b));
         append_between(mesh.points, a, b, share);
         for (MeshScalar& scalar : mesh.point_scalars) append_between(scalar.values, a, b, share);
@@ -129,11 +144,12 @@ struct MeshCutter {
         values.push_back(first + share * (values[static_cast<std::size_t>(b)] - first));
     }
 
-    // Adds a prism as tets. Each quadrilateral's diagonal begins at its corner of least number: so
+    // Adds a prism as tets. Each quadrilateral's diagonal begins at its corner of least place: so
     // neighbours agree (Dompierre et al. 1999). Leaves out tets with a corner twice (on the plane).
     void add_prism(const Prism& prism) {
+        const auto rank = [&](std::int32_t point) { return place(point); };
         const auto least =
-            static_cast<std::size_t>(std::ranges::min_element(prism) - prism.begin());
+            static_cast<std::size_t>(std::ranges::min_element(prism, {}, rank) - prism.begin());
         static constexpr std::array<std::array<std::size_t, 6>, 6> from{{{0, 1, 2, 3, 4, 5},
                                                                          {1, 2, 0, 4, 5, 3},
                                                                          {2, 0, 1, 5, 3, 4},
@@ -141,7 +157,8 @@ struct MeshCutter {
                                                                          {4, 3, 5, 1, 0, 2},
                                                                          {5, 4, 3, 2, 1, 0}}};
         const auto corner = [&](std::size_t i) { return prism[from[least][i]]; };
-        if (std::min(corner(1), corner(5)) < std::min(corner(2), corner(4))) {
+        const auto at = [&](std::size_t i) { return place(corner(i)); };
+        if (std::min(at(1), at(5)) < std::min(at(2), at(4))) {
             add_tet({corner(0), corner(1), corner(2), corner(5)});
             add_tet({corner(0), corner(1), corner(5), corner(4)});
         } else {
@@ -234,9 +251,10 @@ void check(const Clip& clip) {
 
 }  // namespace
 
-MeshData cut_mesh(MeshData mesh, std::span<const HalfSpace> clip) {
+MeshData cut_mesh(MeshData mesh, std::span<const HalfSpace> clip,
+                  std::span<const std::int32_t> places) {
     assert(mesh.cell_scalars.empty());
-    MeshCutter cutter{mesh, diagonal_of(mesh)};
+    MeshCutter cutter{mesh, diagonal_of(mesh), {places.begin(), places.end()}};
     for (const HalfSpace& half : clip) cutter.cut(half);
     drop_unused_points(mesh);
     return mesh;
@@ -254,7 +272,7 @@ std::shared_ptr<const SceneMesh> clipped_mesh(const std::shared_ptr<const SceneM
     data.tets.assign(tets.begin(), tets.end());
     data.point_scalars = {mesh->scalar};
     if (lit) add_gradients(gradients_of(*mesh), data);
-    data = cut_mesh(std::move(data), halves);
+    data = cut_mesh(std::move(data), halves, mesh->mesh.places());
     if (data.tets.empty()) return nullptr;
     std::vector<MeshScalar> scalars = std::exchange(data.point_scalars, {});
     return std::make_shared<const SceneMesh>(SceneMesh{TetMesh(std::move(data), name),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -26,8 +27,9 @@ std::vector<HalfSpace> half_spaces(const Clip& clip);
 // Returns the part of a mesh (without cell scalars) in all half-spaces. A tet that a plane crosses
 // becomes up to three of the same orientation. Conforming meshes stay conforming, and scalars are
 // interpolated linearly. Corners within 1e-10 of the mesh's diagonal, or the rounding of large
-// coordinates, count as on the plane. Unused points are dropped.
-MeshData cut_mesh(MeshData mesh, std::span<const HalfSpace> clip);
+// coordinates, count as on the plane. Unused points are dropped. `places`: TetMesh::places().
+MeshData cut_mesh(MeshData mesh, std::span<const HalfSpace> clip,
+                  std::span<const std::int32_t> places = {});
 
 // Cuts a scene's mesh. Returns it unchanged if nothing is cut away, null if nothing is left. `lit`:
 // keeps gradients of the uncut mesh, interpolated at new points (gradients_before_clip).

@@ -21,6 +21,7 @@ constexpr FaceSigns farther_bit(std::size_t face) {
 }
 
 // Tells whether sorting a face's corners reverses its orientation: true for one of its two tets.
+// `tet`: the places of its corners (TetMesh::place()), as for is_front().
 inline bool turned_by_sorting(const Tet& tet, std::size_t face) {
     const auto [a, b, c] = corners_of_face(tet, face);
     return (a > b) != ((b > c) != (a > c));

@@ -64,15 +64,18 @@ TEST(MeshShape, NonconvexMeshesAreRecognized) {
               }),
               Convexity::none);
     EXPECT_EQ(convexity_of(test::twisted_prism(20)), Convexity::none);
-    // The same box twice, at one place: two surfaces.
+    // A box with a smaller one inside: two surfaces. A box twice, at one place: its tets are
+    // duplicates, and are dropped.
     MeshData twice = box({1, 1, 1});
     const MeshData once = twice;
-    twice.points.insert(twice.points.end(), once.points.begin(), once.points.end());
+    for (const glm::dvec3& point : once.points) twice.points.push_back(.5 * point + .25);
     for (Tet tet : once.tets) {
         for (std::int32_t& corner : tet) corner += 8;
         twice.tets.push_back(tet);
     }
     EXPECT_EQ(convexity_of(twice), Convexity::none);
+    std::ranges::copy(once.points, twice.points.begin() + 8);
+    EXPECT_EQ(convexity_of(twice), Convexity::exact);
 }
 
 TEST(MeshShape, EdgeRatioIsLongestOverShortest) {
@@ -82,8 +85,11 @@ TEST(MeshShape, EdgeRatioIsLongestOverShortest) {
     data.points = {{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {0, 0, .5}};
     data.tets = {{0, 1, 2, 3}};
     EXPECT_EQ(edge_lengths(TetMesh(data, "tet")).ratio(), 10);
-    data.points[3] = {0, 0, 0};
-    EXPECT_EQ(edge_lengths(TetMesh(data, "tet")).ratio(), INFINITY);
+    // Two inner points at one place, and tets between them: no face is open at these points.
+    data.points.insert(data.points.end(), 2, glm::dvec3(.5, .5, .1));
+    data.tets = {{0, 4, 2, 3}, {0, 1, 4, 3}, {0, 1, 2, 4}, {5, 1, 2, 3},
+                 {4, 5, 2, 3}, {4, 1, 5, 3}, {4, 1, 2, 5}};
+    EXPECT_EQ(edge_lengths(TetMesh(data, "tets")).ratio(), INFINITY);
 }
 
 }  // namespace

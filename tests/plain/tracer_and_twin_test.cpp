@@ -14,6 +14,7 @@
 #include "support/carved_mesh.h"
 #include "support/clips.h"
 #include "support/needle_soup.h"
+#include "support/point_copies.h"
 #include "support/scene_fixture.h"
 #include "support/split_box.h"
 #include "support/transfer_functions.h"
@@ -258,6 +259,31 @@ TEST(TracerAndTwin, AgreeOnRaysInFaces) {
         expect_same(scene, mesh, std::to_string(axis));
         scene.camera->height = 17. / 4;  // pixels .25 apart, around the middle of the box
         expect_same(scene, mesh, std::to_string(axis));
+    }
+}
+
+// Each cell has its own points. The field jumps at all faces between cells, at a few, or at none.
+TEST(TracerAndTwin, AgreeOnMeshesWhoseCellsShareNoPoints) {
+    const MeshData box = test::kuhn_box(
+        {2, 3, 2}, [](const glm::dvec3& p) { return .5 + .4 * std::sin(2 * p.x + p.y * p.z); });
+    const auto at_few = [](std::size_t cell) { return cell == 4 ? .3 : 0; };
+    for (const MeshData& data :
+         {test::with_copies(box, 6, test::RandomJump{.4}), test::with_copies(box, 6, at_few),
+          test::with_copies(box, 1, test::RandomJump{.2}),
+          test::with_copies(box, 6, test::no_jump)}) {
+        const SceneMesh mesh = mesh_of(data);
+        for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+            for (const double distance : {3., .4}) {
+                Scene scene = scene_of(test::smooth(), {});
+                scene.camera = camera_at(make_grid({3, 4, 3}, Centering::node), projection,
+                                         {1, .4, .7}, distance);
+                expect_same(scene, mesh, "unlit");
+                scene.lighting = directional();
+                expect_same(scene, mesh, "lit");
+                const TraceResult traced = trace(scene, mesh);
+                EXPECT_EQ(traced.overlapping_rays, 0);
+            }
+        }
     }
 }
 

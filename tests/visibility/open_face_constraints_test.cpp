@@ -70,13 +70,15 @@ TEST(GapFaces, DoNotExistInConvexMeshes) {
     const TetMesh box(test::kuhn_box({8, 7, 6}, test::no_scalar), "kuhn");
     const TetMesh delaunay(test::DelaunayMesh::make(3000, 7), "delaunay");
     const TetMesh prism(test::twisted_prism(-20), "prism");
-    for (const TetMesh* mesh : {&box, &delaunay, &prism}) EXPECT_TRUE(gap_faces(*mesh).empty());
+    const TetMesh joined = two_boxes(0);  // whose touching corners lie at equal places
+    for (const TetMesh* mesh : {&box, &delaunay, &prism, &joined})
+        EXPECT_TRUE(gap_faces(*mesh).empty());
 }
 
 TEST(GapFaces, AreThoseWithSomethingOutside) {
-    for (const TetMesh& mesh : {carved_kuhn(), carved_delaunay(250, 3), carved_delaunay(600, 40),
-                                TetMesh(test::twisted_prism(20), "prism"), two_boxes(0),
-                                two_boxes(1e-15), two_boxes(1)}) {
+    for (const TetMesh& mesh :
+         {carved_kuhn(), carved_delaunay(250, 3), carved_delaunay(600, 40),
+          TetMesh(test::twisted_prism(20), "prism"), two_boxes(1e-15), two_boxes(1)}) {
         const auto expected = gap_faces_of_all(mesh);
         EXPECT_EQ(gap_faces(mesh), expected);
         EXPECT_FALSE(expected.empty());

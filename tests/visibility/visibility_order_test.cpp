@@ -13,6 +13,7 @@
 #include "support/carved_mesh.h"
 #include "support/delaunay_mesh.h"
 #include "support/expect_error.h"
+#include "support/point_copies.h"
 #include "support/split_box.h"
 #include "visibility/order_graph.h"
 
@@ -59,6 +60,27 @@ TEST(VisibilityOrder, CarvedMeshesHaveNoViolation) {
     for (const TetMesh* mesh : {&ring, &sponge}) {
         expect_no_violation(*mesh, OrderMethod::mpvo, 4);
         expect_no_violation(*mesh, OrderMethod::exact, 4);
+    }
+}
+
+// Meshes whose tets, or cells of six tets, share no points have the order of the same mesh with
+// shared points, from any eye, also in planes of faces.
+TEST(VisibilityOrder, CopiesOfPointsDoNotChangeTheOrder) {
+    const MeshData box = test::kuhn_box({5, 4, 6}, test::no_scalar);
+    const auto no_bar = [](const glm::dvec3& c) { return c.x < 2 || c.x > 4 || c.y < 1; };
+    for (const MeshData& data : {box, test::carved(box, no_bar), test::twisted_prism(8)}) {
+        const TetMesh shared(test::with_copies(data, test::one_cell, test::no_jump), "shared");
+        for (const std::size_t cell_tets : {1, 6}) {
+            const TetMesh split(test::with_copies(data, cell_tets, test::no_jump), "split");
+            for (const OrderMethod method : {OrderMethod::mpvo, OrderMethod::exact}) {
+                VisibilityOrder one(shared, method), other(split, method);
+                for (const Eye& eye : test::eyes(shared, 4)) {
+                    EXPECT_TRUE(std::ranges::equal(other.sort(eye), one.sort(eye)))
+                        << cell_tets << " " << name_of(method);
+                    EXPECT_EQ(other.report().cycles, one.report().cycles);
+                }
+            }
+        }
     }
 }
 
