@@ -45,11 +45,14 @@ struct MeshScalar {
 
 // Counts the cells and points of a file that were changed or left out.
 struct CellCounts {
-    std::int64_t split = 0;          // hexahedra, wedges and pyramids that were cut into tets
-    std::int64_t skipped = 0;        // vertices, lines, polygons: no volume
-    std::int64_t straightened = 0;   // quadratic cells, of which only the corners are used
-    std::int64_t ghosts = 0;         // cells that another piece of the mesh also has; left out
-    std::int64_t merged_points = 0;  // points that another piece of the mesh also has; merged
+    std::int64_t split = 0;            // cells other than tets that were cut into tets
+    std::int64_t skipped = 0;          // vertices, lines, polygons: no volume
+    std::int64_t straightened = 0;     // cells of higher order, cut into straight pieces
+    std::int64_t turned_over = 0;      // tets that curved edges of these turn over
+    std::int64_t not_star_shaped = 0;  // polyhedra not star-shaped from the mean of their points
+    std::int64_t made_points = 0;      // points that cells needed and the file lacks
+    std::int64_t ghosts = 0;           // cells that are marked as hidden or as another piece's
+    std::int64_t merged_points = 0;    // points that another piece of the mesh also has; merged
 };
 
 // A tetrahedral mesh as a file or a generator gives it: nothing is checked or repaired. TetMesh
@@ -60,6 +63,8 @@ struct MeshData {
     std::vector<MeshScalar> point_scalars;
     std::vector<MeshScalar> cell_scalars;
     CellCounts cells;
+    // The cell of the file from which each tet was cut, in rising order; empty: each tet is one.
+    std::vector<std::int32_t> cell_of_tet;
 };
 
 // Settings for a mesh that is made from a volume (scene file: "mesh").

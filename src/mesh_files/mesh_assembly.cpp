@@ -2,11 +2,7 @@
 #include "mesh_files/mesh_assembly.h"
 
 #include <algorithm>
-#include <bit>
-#include <cassert>
 #include <cmath>
-#include <cstdlib>
-#include <glm/geometric.hpp>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -17,147 +13,6 @@
 
 namespace lamina {
 namespace {
-
-constexpr std::int64_t tetra = 10, voxel = 11, hexahedron = 12, wedge = 13, pyramid = 14;
-
-// Most points of a cell type that is read: those of a triquadratic hexahedron.
-constexpr std::size_t most_cell_points = 27;
-
-// A type of cell with volume. Only the corners of a quadratic cell are used, which come first: it
-// is straightened to the cell of type `straight`.
-struct CellType {
-    std::int64_t number;  // VTK's
-    const char* name;     // for messages
-    std::size_t points;   // in the file
-    std::size_t corners;  // the first of these
-    std::int64_t straight;
-};
-// vtkCellType.h; the corners of each come first (vtkQuadraticHexahedron.h and so on).
-constexpr CellType types[] = {
-    {tetra, "tetrahedron", 4, 4, tetra},
-    {voxel, "voxel", 8, 8, voxel},
-    {hexahedron, "hexahedron", 8, 8, hexahedron},
-    {wedge, "wedge", 6, 6, wedge},
-    {pyramid, "pyramid", 5, 5, pyramid},
-    {24, "quadratic tetrahedron", 10, 4, tetra},
-    {25, "quadratic hexahedron", 20, 8, hexahedron},
-    {26, "quadratic wedge", 15, 6, wedge},
-    {27, "quadratic pyramid", 13, 5, pyramid},
-    {29, "triquadratic hexahedron", most_cell_points, 8, hexahedron},
-    {31, "quadratic linear wedge", 12, 6, wedge},
-    {32, "biquadratic quadratic wedge", 18, 6, wedge},
-    {33, "biquadratic quadratic hexahedron", 24, 8, hexahedron},
-    {37, "triquadratic pyramid", 19, 5, pyramid},
-};
-
-const CellType* find_type(std::int64_t number) {
-    const auto* const found = std::ranges::find(types, number, &CellType::number);
-    return found == std::end(types) ? nullptr : found;
-}
-
-// Corners of a face, counter-clockwise seen from outside; a triangle has 3, then `no_corner`.
-constexpr std::size_t no_corner = 8;
-using Face = std::array<std::size_t, 4>;
-
-constexpr Face hexahedron_faces[] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4},
-                                     {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
-constexpr Face wedge_faces[] = {
-    {0, 1, 2, no_corner}, {3, 5, 4, no_corner}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};
-constexpr Face pyramid_faces[] = {{0, 3, 2, 1},
-                                  {0, 1, 4, no_corner},
-                                  {1, 2, 4, no_corner},
-                                  {2, 3, 4, no_corner},
-                                  {3, 0, 4, no_corner}};
-
-std::span<const Face> faces_of(std::int64_t type) {
-    if (type == wedge) return wedge_faces;
-    if (type == pyramid) return pyramid_faces;
-    return hexahedron_faces;
-}
-
-// Joins the cell's point of least index to the triangles of the faces without it (split_cell()).
-SplitCell join_least_point(std::span<const Face> faces, std::span<const std::int32_t> corners) {
-    const auto index = [&](std::size_t corner) { return corners[corner]; };
-    const auto apex = static_cast<std::size_t>(std::min_element(corners.begin(), corners.end()) -
-                                               corners.begin());
-    SplitCell cell;
-    const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-        cell.tets[cell.count++] = {index(apex), index(a), index(b), index(c)};
-    };
-    for (const Face& face : faces) {
-        if (std::find(face.begin(), face.end(), apex) != face.end()) continue;
-        if (face[3] == no_corner) {
-            add(face[0], face[1], face[2]);
-            continue;
-        }
-        std::size_t least = 0;
-        for (std::size_t i = 1; i < 4; ++i) {
-            if (index(face[i]) < index(face[least])) least = i;
-        }
-        const auto corner = [&](std::size_t i) { return face[(least + i) % 4]; };
-        add(corner(0), corner(1), corner(2));
-        add(corner(0), corner(2), corner(3));
-    }
-    return cell;
-}
-
-double volume(const Tet& tet, std::span<const glm::dvec3> points) {
-    const auto point = [&](std::size_t i) { return points[static_cast<std::size_t>(tet[i])]; };
-    return glm::dot(glm::cross(point(1) - point(0), point(2) - point(0)), point(3) - point(0)) / 6;
-}
-
-}  // namespace
-
-CellUse use_of_cell(std::int64_t type) {
-    if (const CellType* const cell = find_type(type))
-        return cell->straight == tetra ? CellUse::tet : CellUse::split;
-    // vtkCellType.h: all types of 0, 1 and 2 dimensions up to VTK 9.
-    constexpr std::int64_t without_volume[] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  21,
-                                               22, 23, 28, 30, 34, 35, 36, 51, 52, 53, 54,
-                                               60, 61, 62, 63, 68, 69, 70, 75, 76, 77};
-    return std::ranges::count(without_volume, type) > 0 ? CellUse::skip : CellUse::unsupported;
-}
-
-SplitCell split_cell(std::int64_t type, std::span<const std::int32_t> corners,
-                     std::span<const glm::dvec3> points) {
-    assert(use_of_cell(type) == CellUse::split && corners.size() == find_type(type)->points);
-    std::array<std::int32_t, 8> order{};
-    std::copy(corners.begin(), corners.end(), order.begin());
-    if (type == voxel) {  // its corners lie in the order of the axes
-        std::swap(order[2], order[3]);
-        std::swap(order[6], order[7]);
-    }
-    SplitCell cell = join_least_point(faces_of(type), std::span(order).first(corners.size()));
-    if (type == wedge) {
-        double sum = 0;
-        for (std::size_t i = 0; i < cell.count; ++i) sum += volume(cell.tets[i], points);
-        for (std::size_t i = 0; sum < 0 && i < cell.count; ++i) {
-            std::swap(cell.tets[i][2], cell.tets[i][3]);
-        }
-    }
-    return cell;
-}
-
-namespace {
-
-bool has_nan(const glm::dvec3& place) {
-    return std::isnan(place.x) || std::isnan(place.y) || std::isnan(place.z);
-}
-
-// splitmix64 over the bits of each coordinate.
-std::uint64_t hash_of(const glm::dvec3& place) {
-    std::uint64_t hash = 0;
-    for (const double coordinate : {place.x, place.y, place.z}) {
-        hash +=
-            std::bit_cast<std::uint64_t>(coordinate + 0.0) + 0x9e3779b97f4a7c15;  // -0 becomes 0
-        hash = (hash ^ hash >> 30) * 0xbf58476d1ce4e5b9;
-        hash = (hash ^ hash >> 27) * 0x94d049bb133111eb;
-        hash ^= hash >> 31;
-    }
-    return hash;
-}
-
-constexpr std::size_t most_points = std::numeric_limits<std::int32_t>::max();
 
 void check_ends(const MeshPiece& piece) {
     const auto& ends = piece.cells.ends;
@@ -175,27 +30,64 @@ void check_ends(const MeshPiece& piece) {
     }
 }
 
-// Returns the corners of a cell as indices into the points of the whole mesh. The other points of a
-// quadratic cell are not used, but an index of theirs that is out of range means a damaged file.
-std::span<const std::int32_t> corners_of(const MeshPiece& piece, std::size_t cell,
-                                         std::span<const std::int32_t> indices,
-                                         std::array<std::int32_t, most_cell_points>& corners) {
+// Stands for the index of a point that its file hides.
+constexpr std::int32_t hidden_index = -1;
+
+// Returns a piece's point as an index into the points of the whole mesh.
+std::int32_t index_in(const MeshPiece& piece, std::size_t cell, std::int64_t index,
+                      std::span<const std::int32_t> indices) {
+    if (index < 0 || index >= static_cast<std::int64_t>(indices.size())) {
+        fail("{}: cell {} (the first is 0): found point index {}, expected 0 to {}", piece.label,
+             cell, index, static_cast<std::int64_t>(indices.size()) - 1);
+    }
+    return indices[static_cast<std::size_t>(index)];
+}
+
+std::span<const std::int64_t> listed_points(const MeshPiece& piece, std::size_t cell) {
     const std::int64_t begin = cell == 0 ? 0 : piece.cells.ends[cell - 1];
-    const auto found = static_cast<std::size_t>(piece.cells.ends[cell] - begin);
-    const CellType& type = *find_type(piece.cells.types[cell]);
-    if (found != type.points) {
-        fail("{}: cell {} (the first is 0), a {}: found {} points, expected {}", piece.label, cell,
-             type.name, found, type.points);
+    return std::span(piece.cells.connectivity)
+        .subspan(static_cast<std::size_t>(begin),
+                 static_cast<std::size_t>(piece.cells.ends[cell] - begin));
+}
+
+// Sets `points` to those of a cell, as indices into the points of the whole mesh.
+void read_points(const MeshPiece& piece, std::size_t cell, const CellType& type,
+                 std::span<const std::int32_t> indices, std::vector<std::int32_t>& points) {
+    points.clear();
+    for (const std::int64_t index : listed_points(piece, cell))
+        points.push_back(index_in(piece, cell, index, indices));
+    if (type.points == 0 || points.size() == type.points) return;
+    fail("{}: cell {} (the first is 0), a {}: found {} points, expected {}", piece.label, cell,
+         type.name, points.size(), type.points);
+}
+
+// Reads a polyhedron's face stream: the number of faces, then each face's points and their number.
+PolyhedronFaces read_faces(const MeshPiece& piece, std::size_t cell,
+                           std::span<const std::int32_t> indices,
+                           std::span<const std::int64_t> stream) {
+    const auto check = [&](const char* what, std::int64_t found, std::int64_t least) {
+        if (found >= least && found <= std::ssize(stream)) return;
+        fail(
+            "{}: cell {} (the first is 0), a polyhedron: {}: found {}, expected at least {}, and "
+            "no "
+            "more than its list of {} numbers has",
+            piece.label, cell, what, found, least, stream.size());
+    };
+    constexpr std::int64_t least_faces = 4, least_corners = 3;
+    const std::int64_t count = stream.empty() ? 0 : stream[0];
+    check("number of faces", count, least_faces);
+    PolyhedronFaces faces;
+    std::size_t at = 1;
+    for (std::int64_t face = 0; face < count; ++face) {
+        const std::int64_t corners = at < stream.size() ? stream[at] : 0;
+        check("points of a face", corners, least_corners);
+        check("numbers up to the end of a face", static_cast<std::int64_t>(at) + corners + 1, 0);
+        for (const std::int64_t index : stream.subspan(at + 1, static_cast<std::size_t>(corners)))
+            faces.corners.push_back(index_in(piece, cell, index, indices));
+        faces.ends.push_back(faces.corners.size());
+        at += static_cast<std::size_t>(corners) + 1;
     }
-    for (std::size_t i = 0; i < found; ++i) {
-        const std::int64_t index = piece.cells.connectivity[static_cast<std::size_t>(begin) + i];
-        if (index < 0 || index >= static_cast<std::int64_t>(piece.points.size())) {
-            fail("{}: cell {} (the first is 0): found point index {}, expected 0 to {}",
-                 piece.label, cell, index, static_cast<std::int64_t>(piece.points.size()) - 1);
-        }
-        corners[i] = indices[static_cast<std::size_t>(index)];
-    }
-    return std::span(corners).first(type.corners);
+    return faces;
 }
 
 // Returns the scalars of a piece, `more`, in the order of those of the pieces before it, `all`.
@@ -222,11 +114,13 @@ std::vector<const MeshScalar*> matched(const std::vector<MeshScalar>& all,
     return found;
 }
 
-// vtkDataSetAttributes.h: DUPLICATECELL, REFINEDCELL, HIDDENCELL.
-constexpr int hiding_bits = 1 | 8 | 32;
+// vtkDataSetAttributes.h: DUPLICATECELL, REFINEDCELL, HIDDENCELL; HIDDENPOINT. Points that another
+// piece also has (DUPLICATEPOINT) hide nothing.
+constexpr int hiding_bits = 1 | 8 | 32, hidden_point = 2;
 
-// Removes the arrays that mark ghost cells (or points). Returns which of `count` cells they mark.
-std::vector<bool> take_ghosts(std::vector<MeshScalar>& scalars, std::size_t count) {
+// Removes the arrays that mark ghosts. Returns which of `count` cells or points they hide. `bits`:
+// those of vtkGhostType that hide; levels (of cells only) hide if they are not 0.
+std::vector<bool> take_ghosts(std::vector<MeshScalar>& scalars, std::size_t count, int bits) {
     std::vector<bool> ghosts(count, false);
     std::erase_if(scalars, [&](const MeshScalar& scalar) {
         const bool levels = scalar.name == "vtkGhostLevels";
@@ -234,11 +128,30 @@ std::vector<bool> take_ghosts(std::vector<MeshScalar>& scalars, std::size_t coun
         for (std::size_t i = 0; i < count; ++i) {
             const double value = scalar.values[i];
             if (!(value > 0 && value < 256)) continue;
-            if (levels || (static_cast<int>(value) & hiding_bits) != 0) ghosts[i] = true;
+            if (levels ? bits == hiding_bits : (static_cast<int>(value) & bits) != 0)
+                ghosts[i] = true;
         }
         return true;
     });
     return ghosts;
+}
+
+// Returns the lattice of a Lagrange cell of `count` points.
+CellLattice lagrange_lattice(const MeshPiece& piece, std::size_t cell, const CellType& type,
+                             std::size_t count) {
+    const auto orders = piece.orders.empty() ? std::span<const double>()
+                                             : std::span(piece.orders).subspan(3 * cell, 3);
+    auto lattice = lattice_with(type.lattice.shape, count, orders);
+    if (!lattice) {
+        const bool pyramid = type.lattice.shape == CellLattice::Shape::pyramid;
+        fail(
+            "{}: cell {} (the first is 0), a {}: found {} points, expected those of an order from "
+            "1 to {}{}",
+            piece.label, cell, type.name, count, pyramid ? 2 : highest_order,
+            orders.empty() ? "" : ", or of the orders in its HigherOrderDegrees");
+    }
+    lattice->old_numbers = type.number == 72 && piece.old_hexahedra;
+    return *lattice;
 }
 
 bool same(double a, double b) {
@@ -246,50 +159,6 @@ bool same(double a, double b) {
 }
 
 }  // namespace
-
-// Returns the slot that has this place, or the empty one to which it belongs.
-std::size_t PointTable::slot_of(const glm::dvec3& place) const {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = hash_of(place) & mask;
-    while (slots_[slot] != 0 &&
-           points_[static_cast<std::size_t>(std::abs(slots_[slot]) - 1)] != place) {
-        slot = (slot + 1) & mask;
-    }
-    return slot;
-}
-
-void PointTable::grow(std::size_t slots) {
-    std::vector<std::int32_t> old(slots, 0);
-    old.swap(slots_);
-    for (const std::int32_t entry : old) {
-        if (entry == 0) continue;
-        slots_[slot_of(points_[static_cast<std::size_t>(std::abs(entry) - 1)])] = entry;
-    }
-}
-
-void PointTable::add(std::int32_t point) {
-    const glm::dvec3& place = points_[static_cast<std::size_t>(point)];
-    if (has_nan(place)) return;
-    if (2 * (used_ + 1) > slots_.size()) grow(slots_.empty() ? 64 : 2 * slots_.size());
-    std::int32_t& entry = slots_[slot_of(place)];
-    used_ += entry == 0;
-    entry = entry == 0 ? point + 1 : -std::abs(entry);
-}
-
-void PointTable::add_all() {
-    if (2 * (used_ + points_.size()) > slots_.size())
-        grow(std::bit_ceil(2 * (used_ + points_.size()) + 2));
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-        if ((i & 0xfffff) == 0) check_interrupt();
-        add(static_cast<std::int32_t>(i));
-    }
-}
-
-std::int32_t PointTable::find(const glm::dvec3& place) const {
-    if (slots_.empty() || has_nan(place)) return -1;
-    const std::int32_t entry = slots_[slot_of(place)];
-    return entry > 0 ? entry - 1 : -1;
-}
 
 std::vector<glm::dvec3> points_from_values(const std::vector<double>& values) {
     std::vector<glm::dvec3> points(values.size() / 3);
@@ -317,32 +186,69 @@ void add_scalars(std::vector<MeshScalar>& scalars, const std::string& name, std:
     }
 }
 
-// Adds those points of a piece that the mesh lacks. Returns each point's index in the mesh.
-std::vector<std::int32_t> MeshAssembly::add_points(const MeshPiece& piece) {
+// Tells if cells of a type are cut by the places of their points. Tets of any order are not.
+bool is_cut(std::int64_t type) {
+    constexpr std::int64_t tets[] = {vtk_tetra, 24, 71};
+    return std::ranges::count(tets, type) == 0 && find_cell_type(type) != nullptr;
+}
+
+// Adds those points of a piece that the mesh lacks, with their values. Returns each point's index
+// in the mesh. `scalars`: the piece's scalars in the order of the mesh's.
+std::vector<std::int32_t> MeshAssembly::add_points(const MeshPiece& piece,
+                                                   std::span<const MeshScalar* const> scalars) {
+    const auto equal_values = [&](std::size_t point, std::size_t index) {
+        for (std::size_t s = 0; s < scalars.size(); ++s) {
+            if (!same(scalars[s]->values[point], mesh_.point_scalars[s].values[index]))
+                return false;
+        }
+        return true;
+    };
     std::vector<std::int32_t> indices(piece.points.size(), -1);
     if (!mesh_.points.empty()) {
-        if (!table_) table_.emplace(mesh_.points).add_all();
-        PointTable own(piece.points);
-        own.add_all();
+        places_.look();
+        PointPlaces own(piece.points);
+        own.look();
         for (std::size_t i = 0; i < indices.size(); ++i) {
             if ((i & 0xfffff) == 0) check_interrupt();
-            if (own.find(piece.points[i]) >= 0) indices[i] = table_->find(piece.points[i]);
+            if (own.table().find(piece.points[i]) < 0) continue;
+            const std::int32_t index = places_.table().find(piece.points[i]);
+            if (index >= 0 && equal_values(i, static_cast<std::size_t>(index))) indices[i] = index;
         }
     }
     const auto merged = static_cast<std::size_t>(
         std::ranges::count_if(indices, [](std::int32_t index) { return index >= 0; }));
     const std::size_t total = mesh_.points.size() + piece.points.size() - merged;
-    if (total > most_points)
-        fail("{}: found {} points, expected at most {}", piece.label, total, most_points);
+    if (total > MadePoints::most_points) {
+        fail("{}: found {} points, expected at most {}", piece.label, total,
+             MadePoints::most_points);
+    }
     mesh_.cells.merged_points += static_cast<std::int64_t>(merged);
     if (mesh_.points.empty()) mesh_.points.reserve(total);
     for (std::size_t i = 0; i < indices.size(); ++i) {
         if (indices[i] >= 0) continue;
         indices[i] = static_cast<std::int32_t>(mesh_.points.size());
         mesh_.points.push_back(piece.points[i]);
-        if (table_) table_->add(indices[i]);
+        for (std::size_t s = 0; s < scalars.size(); ++s)
+            mesh_.point_scalars[s].values.push_back(scalars[s]->values[i]);
     }
+    if (places_.known() || std::ranges::any_of(piece.cells.types, is_cut)) places_.look();
     return indices;
+}
+
+// Returns the face stream of a cell. `begin`: where that of the next one begins, in piece.faces.
+std::span<const std::int64_t> face_stream(const MeshPiece& piece, std::size_t cell,
+                                          std::int64_t& begin) {
+    const MeshCells& cells = piece.cells;
+    if (cells.face_ends.empty()) return listed_points(piece, cell);
+    const std::int64_t from = begin, end = cells.face_ends[cell];
+    if (end < 0) return {};  // -1: the cell is no polyhedron
+    if (end < from || end > std::ssize(cells.faces)) {
+        fail("{}: faceoffsets: found {} for cell {}, expected {} to {}", piece.label, end, cell,
+             from, cells.faces.size());
+    }
+    begin = end;
+    return std::span(cells.faces)
+        .subspan(static_cast<std::size_t>(from), static_cast<std::size_t>(end - from));
 }
 
 // Adds the tets of a piece's cells. Returns the number of the cell from which each tet was cut.
@@ -352,74 +258,76 @@ std::vector<std::int64_t> MeshAssembly::add_cells(const MeshPiece& piece,
     std::vector<std::int64_t> cell_of_tet;
     cell_of_tet.reserve(piece.cells.types.size());
     // Reserves for the first piece only: with many small ones, each would reallocate the vector.
-    if (mesh_.tets.empty()) mesh_.tets.reserve(piece.cells.types.size());
-    std::array<std::int32_t, most_cell_points> corners{};
+    const std::size_t tets_before = mesh_.tets.size();
+    if (tets_before == 0) mesh_.tets.reserve(piece.cells.types.size());
+    std::vector<std::int32_t> points;
+    std::int64_t face_begin = 0;
     for (std::size_t cell = 0; cell < piece.cells.types.size(); ++cell) {
-        if ((cell & 0xfffff) == 0) check_interrupt();
-        const std::int64_t type = piece.cells.types[cell];
-        const CellUse use = use_of_cell(type);
-        if (use == CellUse::skip || ghosts[cell]) {
+        if ((cell & 0xffff) == 0) check_interrupt();
+        const std::int64_t number = piece.cells.types[cell];
+        const auto faces = number == vtk_polyhedron ? face_stream(piece, cell, face_begin)
+                                                    : std::span<const std::int64_t>();
+        if (ghosts[cell] || has_no_volume(number)) {
             ++(ghosts[cell] ? mesh_.cells.ghosts : mesh_.cells.skipped);
             continue;
         }
-        if (use == CellUse::unsupported) {
+        const CellType* const type = find_cell_type(number);
+        if (type == nullptr || type->use == CellUse::refused) {
             fail(
-                "{}: cell {} (the first is 0): found VTK cell type {}, expected tetrahedra (10), "
-                "hexahedra (12), voxels (11), wedges (13), pyramids (14), their quadratic kinds "
-                "(24 to 27, 29, 31 to 33, 37) or cells without volume",
-                piece.label, cell, type);
+                "{}: cell {} (the first is 0): found a {} (VTK cell type {}), which is not read: "
+                "{}",
+                piece.label, cell, type == nullptr ? "cell of an unknown type" : type->name, number,
+                type == nullptr ? "expected one that docs/meshes.md names" : type->advice);
         }
-        const auto used = corners_of(piece, cell, indices, corners);
-        SplitCell split{{{{used[0], used[1], used[2], used[3]}}}, 1};
-        if (use == CellUse::split) {
-            split = split_cell(find_type(type)->straight, used, mesh_.points);
-            ++mesh_.cells.split;
-        }
-        mesh_.cells.straightened += find_type(type)->straight != type;
-        mesh_.tets.insert(mesh_.tets.end(), split.tets.begin(),
-                          split.tets.begin() + static_cast<std::ptrdiff_t>(split.count));
-        cell_of_tet.insert(cell_of_tet.end(), split.count, static_cast<std::int64_t>(cell));
+        PolyhedronFaces polyhedron;
+        if (number == vtk_polyhedron)
+            polyhedron = read_faces(piece, cell, indices, faces);
+        else
+            read_points(piece, cell, *type, indices, points);
+        const auto& used = number == vtk_polyhedron ? polyhedron.corners : points;
+        if (std::ranges::count(used, hidden_index) > 0)
+            ++mesh_.cells.ghosts;
+        else if (number == vtk_polyhedron)
+            cuts_.add_polyhedron(polyhedron);
+        else if (type->use == CellUse::faces)
+            cuts_.add_polyhedron(faces_of_prism(points));
+        else if (type->use == CellUse::straight)
+            cuts_.add_straight(number, points);
+        else if (type->points > 0)
+            cuts_.add_lattice(type->lattice, points);
+        else
+            cuts_.add_lattice(lagrange_lattice(piece, cell, *type, points.size()), points);
+        cell_of_tet.resize(mesh_.tets.size() - tets_before, static_cast<std::int64_t>(cell));
     }
     return cell_of_tet;
 }
 
-// Adds the scalars of a piece's points. A point that an earlier piece also has keeps its value; a
-// warning counts the points for which this piece has another value.
-void MeshAssembly::add_point_scalars(MeshPiece& piece, std::size_t points_before,
-                                     std::span<const std::int32_t> indices) {
-    if (first_) {
-        mesh_.point_scalars = std::move(piece.point_scalars);
-        return;
-    }
-    const auto more = matched(mesh_.point_scalars, piece.point_scalars, piece, "point data");
-    for (std::size_t number = 0; number < more.size(); ++number) {
-        std::vector<double>& values = mesh_.point_scalars[number].values;
-        std::size_t different = 0;
-        for (std::size_t i = 0; i < indices.size(); ++i) {
-            const auto index = static_cast<std::size_t>(indices[i]);
-            const double value = more[number]->values[i];
-            if (index >= points_before) {
-                values.push_back(value);
-            } else {
-                different += !same(value, values[index]);
-            }
-        }
-        if (different == 0) continue;
-        warn(
-            fmt::format("{}: '{}': found {} points with other values than the pieces before have "
-                        "there, expected the same: theirs are used",
-                        piece.label, one_line(more[number]->name), different));
+// Notes from which cell each tet was cut, for means of cell data.
+void MeshAssembly::number_cells(const std::vector<std::int64_t>& cell_of_tet) {
+    std::int64_t last = -1;
+    for (const std::int64_t cell : cell_of_tet) {
+        if (cell != last) ++cells_;
+        last = cell;
+        mesh_.cell_of_tet.push_back(static_cast<std::int32_t>(cells_ - 1));
     }
 }
 
 void MeshAssembly::add(MeshPiece piece) {
     if (piece.points.empty() && piece.cells.types.empty()) return;
     check_ends(piece);
-    take_ghosts(piece.point_scalars, 0);
-    const std::vector<bool> ghosts = take_ghosts(piece.cell_scalars, piece.cells.types.size());
-    const std::size_t points_before = mesh_.points.size();
-    const std::vector<std::int32_t> indices = add_points(piece);
-    const std::vector<std::int64_t> cell_of_tet = add_cells(piece, ghosts, indices);
+    const std::vector<bool> hidden =
+        take_ghosts(piece.point_scalars, piece.points.size(), hidden_point);
+    const std::vector<bool> ghosts =
+        take_ghosts(piece.cell_scalars, piece.cells.types.size(), hiding_bits);
+    near_.take(piece.points);
+    std::vector<const MeshScalar*> scalars;
+    if (!first_) scalars = matched(mesh_.point_scalars, piece.point_scalars, piece, "point data");
+    const std::vector<std::int32_t> indices = add_points(piece, scalars);
+    std::vector<std::int32_t> visible = indices;
+    for (std::size_t i = 0; i < visible.size(); ++i)
+        if (hidden[i]) visible[i] = hidden_index;
+    const std::vector<std::int64_t> cell_of_tet = add_cells(piece, ghosts, visible);
+    if (!piece.cell_scalars.empty()) number_cells(cell_of_tet);
     for (MeshScalar& scalar : piece.cell_scalars) {
         std::vector<double> of_tets(cell_of_tet.size());
         for (std::size_t tet = 0; tet < of_tets.size(); ++tet) {
@@ -427,7 +335,8 @@ void MeshAssembly::add(MeshPiece piece) {
         }
         scalar.values = std::move(of_tets);
     }
-    add_point_scalars(piece, points_before, indices);
+    if (first_) mesh_.point_scalars = std::move(piece.point_scalars);
+    cuts_.made().append_values();
     if (first_) {
         mesh_.cell_scalars = std::move(piece.cell_scalars);
     } else {
@@ -453,6 +362,13 @@ MeshData MeshAssembly::finish() {
             file_, mesh_.cells.skipped);
     }
     if (mesh_.tets.empty()) fail("{}: found no cells", file_);
+    if (near_.moved() > 0) {
+        warn(
+            fmt::format("{}: mesh.join: {} points took the place of an earlier one, up to {:.3g} "
+                        "away",
+                        file_, near_.moved(), near_.farthest()));
+    }
+    if (mesh_.cells.split + mesh_.cells.straightened == 0) mesh_.cell_of_tet = {};
     return std::move(mesh_);
 }
 

@@ -17,14 +17,21 @@ bool is_mesh_file(const std::filesystem::path& path);
 // one step of a .pvd, or TetGen's pair of .node and .ele (either name stands for both). Pieces are
 // joined, cells cut into tets and arrays made scalars as mesh_files/mesh_assembly.h says; cells
 // without volume are counted. All corner indices are in range. `time`: index of the step in the
-// order of time, from 0; only a .pvd has several. Throws Error.
-MeshData read_mesh(const std::filesystem::path& path, std::int64_t time = 0);
+// order of time, from 0; only a .pvd has several. `join`: points at most so far from an earlier one
+// take its place (NearPlaces in mesh/point_table.h); a warning counts them. Throws Error.
+MeshData read_mesh(const std::filesystem::path& path, std::int64_t time = 0, double join = 0);
+
+// Throws Error, which says what to do, if a file is of a kind of mesh that is not read: by its
+// content (VTK XML, Gmsh, XDMF), else by its extension.
+void expect_no_foreign_mesh(const std::filesystem::path& path);
 
 // The extensions of mesh files, for messages.
 inline constexpr const char* mesh_format_list = ".vtu, .pvtu, .pvd, .vtk, .node, .ele";
 
 // Returns the number of steps of a mesh file: 1, except of a .pvd. Throws Error.
 std::int64_t steps_of_mesh(const std::filesystem::path& path);
+// Returns the times of the steps of a .pvd, in their order; none for other files. Throws Error.
+std::vector<double> times_of_mesh(const std::filesystem::path& path);
 
 // Returns the files that hold the mesh, with all its steps: `path` first. Throws Error.
 std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path);

@@ -15,6 +15,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
+#include "mesh_files/mesh_assembly.h"
 #include "mesh_files/mesh_file.h"
 #include "mesh_files/text_reader.h"
 
@@ -110,7 +111,7 @@ class Lines {
 constexpr std::int64_t most_attributes = 1000;
 
 // Reads the points of a .node file and their scalars. Returns the first point's number, 0 or 1.
-std::int64_t read_nodes(Lines& lines, MeshData& mesh) {
+std::int64_t read_nodes(Lines& lines, MeshPiece& mesh) {
     if (!lines.next()) fail("{}: found no numbers", lines.file());
     const std::int64_t points = lines.count("number of points", 0);
     const std::int64_t dimension = lines.count("dimension", 3);
@@ -155,7 +156,11 @@ std::int64_t read_nodes(Lines& lines, MeshData& mesh) {
     return first;
 }
 
-void read_tets(Lines& lines, std::int64_t first_point, MeshData& mesh) {
+// The places of a VTK quadratic tet's points in TetGen's list: corners, then middles of the edges
+// 0-1, 1-2, 2-0, 0-3, 1-3, 2-3, of which TetGen ("-o2") lists 2-3, 3-0, 0-1, 1-2, 1-3, 2-0.
+constexpr std::array<std::size_t, 10> vtk_order{0, 1, 2, 3, 6, 7, 9, 5, 8, 4};
+
+void read_tets(Lines& lines, std::int64_t first_point, MeshPiece& mesh) {
     if (!lines.next()) fail("{}: found no numbers", lines.file());
     const std::int64_t tets = lines.count("number of tetrahedra", 0);
     const std::int64_t nodes = lines.count("nodes of a tetrahedron", 4);
@@ -171,8 +176,11 @@ void read_tets(Lines& lines, std::int64_t first_point, MeshData& mesh) {
     }
     lines.check_promise("tetrahedra", tets, 1 + nodes + attributes);
 
-    mesh.tets.resize(static_cast<std::size_t>(tets));
-    mesh.cells.straightened = nodes == 10 ? tets : 0;
+    constexpr std::int64_t quadratic_tetra = 24;
+    const auto each = static_cast<std::size_t>(nodes);
+    mesh.cells.types.assign(static_cast<std::size_t>(tets),
+                            nodes == 10 ? quadratic_tetra : vtk_tetra);
+    mesh.cells.connectivity.reserve(static_cast<std::size_t>(tets) * each);
     mesh.cell_scalars = lines.attributes("tet", attributes, tets);
     const std::int64_t last_point = first_point + static_cast<std::int64_t>(mesh.points.size()) - 1;
     for (std::int64_t i = 0; i < tets; ++i) {
@@ -181,17 +189,18 @@ void read_tets(Lines& lines, std::int64_t first_point, MeshData& mesh) {
             fail("{}: found {} tetrahedra, expected {}", lines.file(), i, tets);
         }
         lines.number<std::int64_t>("number of the tetrahedron");
-        for (std::size_t corner = 0; corner < static_cast<std::size_t>(nodes); ++corner) {
+        std::array<std::int64_t, 10> points{};
+        for (std::size_t point = 0; point < each; ++point) {
             const auto index = lines.number<std::int64_t>("point of the tetrahedron");
             if (index < first_point || index > last_point) {
                 fail("{}: point of the tetrahedron: found {}, expected {} to {}", lines.where(),
                      index, first_point, last_point);
             }
-            if (corner < 4) {
-                mesh.tets[static_cast<std::size_t>(i)][corner] =
-                    static_cast<std::int32_t>(index - first_point);
-            }
+            points[point] = index - first_point;
         }
+        for (std::size_t point = 0; point < each; ++point)
+            mesh.cells.connectivity.push_back(points[vtk_order[point]]);
+        mesh.cells.ends.push_back(std::ssize(mesh.cells.connectivity));
         for (MeshScalar& scalar : mesh.cell_scalars) {
             scalar.values.push_back(lines.number<double>("attribute"));
         }
@@ -237,7 +246,7 @@ void append_values(std::string& text, const std::vector<MeshScalar>& scalars, st
 
 }  // namespace
 
-MeshData read_node_ele(const std::filesystem::path& path) {
+MeshData read_node_ele(const std::filesystem::path& path, double join) {
     std::filesystem::path node = path, ele = path;
     if (path.extension() == ".ele") {
         node.replace_extension(".node");
@@ -250,7 +259,8 @@ MeshData read_node_ele(const std::filesystem::path& path) {
         fail("{}: no such file{}", file.string(),
              file == path ? "" : fmt::format("; expected beside {}", path.string()));
     }
-    MeshData mesh;
+    MeshPiece mesh;
+    mesh.label = ele.string();
     const ByteBuffer node_text = read_large_file(node);
     Lines node_lines(node.string(), node_text.text());
     const std::int64_t first_point = read_nodes(node_lines, mesh);
@@ -259,8 +269,10 @@ MeshData read_node_ele(const std::filesystem::path& path) {
     const ByteBuffer ele_text = read_large_file(ele);
     Lines ele_lines(ele.string(), ele_text.text());
     read_tets(ele_lines, first_point, mesh);
-    expect_file_end(ele_lines, static_cast<std::int64_t>(mesh.tets.size()), "tetrahedra");
-    return mesh;
+    expect_file_end(ele_lines, std::ssize(mesh.cells.types), "tetrahedra");
+    MeshAssembly assembly(ele.string(), join);
+    assembly.add(std::move(mesh));
+    return assembly.finish();
 }
 
 void write_node(AtomicFile& file, const MeshData& mesh) {

@@ -353,6 +353,18 @@ void swap_words(ValueType type, ByteBuffer& bytes) {
 
 }  // namespace
 
+std::string vtk_xml_type(const std::filesystem::path& path) {
+    const std::string beginning = file_beginning(path, 4096);
+    const std::size_t tag = beginning.find("<VTKFile");
+    if (tag == std::string::npos ||
+        beginning.find_first_not_of(" \t\r\n\xef\xbb\xbf") != beginning.find('<'))
+        return {};
+    pugi::xml_document document;
+    const std::string element = beginning.substr(tag, beginning.find('>', tag) - tag) + "/>";
+    document.load_buffer(element.data(), element.size());
+    return document.first_child().attribute("type").value();
+}
+
 VtkXmlText::VtkXmlText(const std::filesystem::path& path)
     : name_(path.string()), file_(path), bytes_(file_.size()) {
     read_beginning();

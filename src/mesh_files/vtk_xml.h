@@ -37,6 +37,9 @@ struct VtkXmlEncoding {
     std::string compressor;  // empty: none
 };
 
+// Returns the type of a VTK XML file, such as "ImageData"; empty if it is none.
+std::string vtk_xml_type(const std::filesystem::path& path);
+
 // Values in their own type and native byte order.
 struct VtkXmlValues {
     ValueType type = ValueType::uint8;

@@ -14,6 +14,7 @@
 #include <map>
 #include <pugixml.hpp>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include "base/error.h"
@@ -105,6 +106,90 @@ std::vector<std::int64_t> read_cell_array(const VtkXmlFile& file, pugi::xml_node
     return file.values<std::int64_t>(array, count, 1, what);
 }
 
+// The attribute of <CellData> that names the array of the orders of Lagrange cells
+// (vtkDataSetAttributes).
+constexpr const char* orders_attribute = "HigherOrderDegrees";
+
+// Returns the last offset, which is the length of the list that they divide.
+std::int64_t length_of(const std::vector<std::int64_t>& ends, const std::string& what) {
+    const std::int64_t length = ends.empty() ? 0 : ends.back();
+    if (length < 0) fail("{}: found {}, expected a number >= 0", what, length);
+    return length;
+}
+
+// Returns the part of a list that ends[number] ends.
+std::span<const std::int64_t> part_of(const std::vector<std::int64_t>& list,
+                                      const std::vector<std::int64_t>& ends, std::int64_t number,
+                                      const std::string& what) {
+    if (number < 0 || number >= std::ssize(ends))
+        fail("{}: found number {}, expected 0 to {}", what, number, std::ssize(ends) - 1);
+    const auto at = static_cast<std::size_t>(number);
+    const std::int64_t begin = at == 0 ? 0 : ends[at - 1], end = ends[at];
+    if (begin < 0 || end < begin || end > std::ssize(list))
+        fail("{}: found {} after {}, expected up to {}", what, end, begin, list.size());
+    return std::span(list).subspan(static_cast<std::size_t>(begin),
+                                   static_cast<std::size_t>(end - begin));
+}
+
+// Reads the faces of polyhedra: as a stream, or (from VTK 9.4 on, version 2.3) as a list of faces
+// and one of each cell's faces, which are made a stream.
+void read_faces_of(const VtkXmlFile& file, pugi::xml_node lists, const std::string& label,
+                   MeshCells& cells) {
+    const auto count = std::ssize(cells.types);
+    const auto read = [&](const char* name, std::int64_t length) {
+        return read_cell_array(file, lists, name, length, label);
+    };
+    if (!lists.find_child_by_attribute("DataArray", "Name", "polyhedron_to_faces")) {
+        cells.face_ends = read("faceoffsets", count);
+        const auto longest = std::ranges::max_element(cells.face_ends);
+        cells.faces = read("faces", std::max(*longest, std::int64_t{0}));
+        return;
+    }
+    const auto cell_ends = read("polyhedron_offsets", count);
+    const auto face_numbers =
+        read("polyhedron_to_faces", length_of(cell_ends, label + ": polyhedron_offsets"));
+    constexpr std::int64_t most_faces = std::numeric_limits<std::int32_t>::max();
+    std::int64_t last = -1;
+    for (const std::int64_t number : face_numbers) {
+        if (number < 0 || number > most_faces)
+            fail("{}: polyhedron_to_faces: found {}, expected 0 to {}", label, number, most_faces);
+        last = std::max(last, number);
+    }
+    const auto ends = read("face_offsets", last + 1);
+    const auto corners = read("face_connectivity", length_of(ends, label + ": face_offsets"));
+    std::vector<int> uses(ends.size(), 0);  // more than two would let a small file fill all memory
+    for (std::int64_t cell = 0; cell < count; ++cell) {
+        const auto numbers = part_of(face_numbers, cell_ends, cell, label + ": polyhedron_offsets");
+        if (!numbers.empty()) cells.faces.push_back(std::ssize(numbers));
+        for (const std::int64_t number : numbers) {
+            const auto face = part_of(corners, ends, number, label + ": face_offsets");
+            if (++uses[static_cast<std::size_t>(number)] > 2)
+                fail("{}: polyhedron_to_faces: found face {} thrice, expected at most twice", label,
+                     number);
+            cells.faces.push_back(std::ssize(face));
+            cells.faces.insert(cells.faces.end(), face.begin(), face.end());
+        }
+        cells.face_ends.push_back(numbers.empty() ? -1 : std::ssize(cells.faces));
+    }
+}
+
+// Tells if a file's version is below 2.1, from which on VTK numbers the points of Lagrange
+// hexahedra anew (vtkXMLUnstructuredGridReader, vtkUpdateCellsV8toV9).
+bool numbers_as_vtk_8(const VtkXmlFile& file) {
+    TextReader reader(file.grid().parent().attribute("version").as_string("0.1"));
+    double version = 0;
+    return !reader.read(version) || version < 2.1;
+}
+
+// Reads the orders of Lagrange cells along their axes, if the file has them.
+std::vector<double> read_orders(const VtkXmlFile& file, pugi::xml_node data, std::int64_t cells,
+                                const std::string& label) {
+    const char* const name = data.attribute(orders_attribute).value();
+    const pugi::xml_node array = data.find_child_by_attribute("DataArray", "Name", name);
+    if (!array || file.components_of(array, label) != 3) return {};
+    return file.values<double>(array, cells, 3, label + ": " + orders_attribute);
+}
+
 std::vector<MeshScalar> read_scalars(const VtkXmlFile& file, pugi::xml_node piece,
                                      const char* section, std::int64_t tuples,
                                      const std::string& label) {
@@ -113,7 +198,10 @@ std::vector<MeshScalar> read_scalars(const VtkXmlFile& file, pugi::xml_node piec
     for (const pugi::xml_node array : piece.child(section).children("DataArray")) {
         ++number;
         const std::string_view type = array.attribute("type").value();
+        const char* const orders = piece.child(section).attribute(orders_attribute).value();
         if (type == "String" || type == "Bit") continue;
+        if (*orders != '\0' && orders == std::string_view(array.attribute("Name").value()))
+            continue;
         const auto given = array.attribute("Name");
         const std::string name = given ? given.value() : fmt::format("array {}", number);
         const std::string what = fmt::format("{}: {} '{}'", label, section, one_line(name));
@@ -126,7 +214,9 @@ std::vector<MeshScalar> read_scalars(const VtkXmlFile& file, pugi::xml_node piec
 }
 
 MeshPiece read_piece(const VtkXmlFile& file, pugi::xml_node node, const std::string& label) {
-    MeshPiece piece{label, {}, {}, {}, {}};
+    MeshPiece piece;
+    piece.label = label;
+    piece.old_hexahedra = numbers_as_vtk_8(file);
     const std::int64_t points = file.count_in(node, "NumberOfPoints", label);
     const std::int64_t cells = file.count_in(node, "NumberOfCells", label);
     if (points == 0 && cells == 0) return piece;
@@ -142,16 +232,20 @@ MeshPiece read_piece(const VtkXmlFile& file, pugi::xml_node node, const std::str
     const pugi::xml_node lists = child_of(node, "Cells", label);
     piece.cells.types = read_cell_array(file, lists, "types", cells, label);
     piece.cells.ends = read_cell_array(file, lists, "offsets", cells, label);
-    const std::int64_t indices = cells == 0 ? 0 : piece.cells.ends.back();
-    if (indices < 0) fail("{}: offsets: found {}, expected a number >= 0", label, indices);
+    const std::int64_t indices = length_of(piece.cells.ends, label + ": offsets");
     piece.cells.connectivity = read_cell_array(file, lists, "connectivity", indices, label);
 
+    if (std::ranges::count(piece.cells.types, vtk_polyhedron) > 0)
+        read_faces_of(file, lists, label, piece.cells);
+
     piece.point_scalars = read_scalars(file, node, "PointData", points, label);
+    piece.orders = read_orders(file, node.child("CellData"), cells, label);
     piece.cell_scalars = read_scalars(file, node, "CellData", cells, label);
     return piece;
 }
 
 void add_vtu(const std::filesystem::path& path, MeshAssembly& assembly) {
+    expect_no_foreign_mesh(path);
     const VtkXmlFile file(path);
     const auto pieces = file.grid().children("Piece");
     const bool single = std::distance(pieces.begin(), pieces.end()) == 1;
@@ -258,8 +352,8 @@ std::vector<T> offsets(std::size_t tets) {
 
 }  // namespace
 
-MeshData read_vtu(const std::filesystem::path& path) {
-    MeshAssembly assembly(path.string());
+MeshData read_vtu(const std::filesystem::path& path, double join) {
+    MeshAssembly assembly(path.string(), join);
     add_vtu(path, assembly);
     return assembly.finish();
 }
@@ -275,8 +369,8 @@ std::vector<std::filesystem::path> pieces_of_pvtu(const std::filesystem::path& p
     return files;
 }
 
-MeshData read_pvtu(const std::filesystem::path& path) {
-    MeshAssembly assembly(path.string());
+MeshData read_pvtu(const std::filesystem::path& path, double join) {
+    MeshAssembly assembly(path.string(), join);
     add_pvtu(path, assembly);
     return assembly.finish();
 }
@@ -299,14 +393,15 @@ std::vector<PvdStep> steps_of_pvd(const std::filesystem::path& path) {
     return steps;
 }
 
-MeshData read_pvd(const std::filesystem::path& path, std::int64_t step) {
+MeshData read_pvd(const std::filesystem::path& path, std::int64_t step, double join) {
     const std::vector<PvdStep> steps = steps_of_pvd(path);
     if (step < 0 || step >= std::ssize(steps)) {
         fail("{}: time: found {}, expected 0 to {}, the steps of the file", path.string(), step,
              std::ssize(steps) - 1);
     }
     const PvdStep& chosen = steps[static_cast<std::size_t>(step)];
-    MeshAssembly assembly(fmt::format("{}: step {} (time {})", path.string(), step, chosen.time));
+    MeshAssembly assembly(fmt::format("{}: step {} (time {})", path.string(), step, chosen.time),
+                          join);
     for (const std::filesystem::path& file : chosen.files) {
         if (file.extension() == ".pvtu") {
             add_pvtu(file, assembly);

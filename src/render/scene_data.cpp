@@ -21,8 +21,12 @@ std::map<std::string, std::int64_t> counts_of(const SceneMesh& mesh) {
     counts["split_cells"] = cells.split;
     counts["skipped_cells"] = cells.skipped;
     counts["straightened_cells"] = cells.straightened;
+    counts["turned_over_tets"] = cells.turned_over;
+    counts["not_star_shaped_cells"] = cells.not_star_shaped;
+    counts["made_points"] = cells.made_points;
     counts["ghost_cells"] = cells.ghosts;
     counts["merged_points"] = cells.merged_points;
+    counts["copied_points"] = findings.copies;
     if (mesh.averaged) counts["averaged_arrays"] = 1;
     return counts;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vector_relational.hpp>
@@ -27,7 +28,28 @@ void add_cells(const CellCounts& cells, Warnings& to) {
         to.push_back(fmt::format("{} cells have no volume and are not drawn", cells.skipped));
     if (cells.straightened > 0) {
         to.push_back(
-            fmt::format("{} quadratic cells are drawn with straight edges", cells.straightened));
+            fmt::format("{} quadratic or higher cells are drawn as straight pieces between their "
+                        "points",
+                        cells.straightened));
+    }
+    if (cells.turned_over > 0) {
+        to.push_back(fmt::format(
+            "{} tets of quadratic or higher cells are turned over by curved edges, and overlap "
+            "others",
+            cells.turned_over));
+    }
+    if (cells.not_star_shaped > 0) {
+        to.push_back(fmt::format(
+            "{} polyhedra are not star-shaped from the mean of their points, or not closed: their "
+            "tets overlap or leave gaps",
+            cells.not_star_shaped));
+    }
+    if (cells.split > 0) {
+        to.push_back(fmt::format(
+            "{} hexahedra or other cells are cut into tets, in which the field is linear, not "
+            "trilinear: between points it differs from a volume's, most around single peaks "
+            "(docs/meshes.md)",
+            cells.split));
     }
 }
 
@@ -189,6 +211,13 @@ Warnings data_warnings(const VolumeData& data) {
 Warnings data_warnings(const Scene& scene, const SceneMesh& mesh) {
     Warnings warnings;
     add_cells(mesh.mesh.findings().cells, warnings);
+    if (const std::int64_t copies = mesh.mesh.findings().copies; copies > 0) {
+        const std::int64_t points = std::ssize(mesh.mesh.points());
+        warnings.push_back(
+            fmt::format("{} points lie at {} places: tets that meet there are neighbours, and each "
+                        "keeps its own values",
+                        points, points - copies));
+    }
     if (mesh.averaged)
         warnings.push_back(
             fmt::format("\"{}\" is cell data: averaged to points", mesh.scalar.name));

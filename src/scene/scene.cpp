@@ -95,14 +95,16 @@ MeshScalar take_scalar(MeshData& data, const Scene& scene, bool& averaged) {
     if (const auto point = find(data.point_scalars); point != data.point_scalars.end()) {
         taken = std::move(*point);
     } else if (const auto cell = find(data.cell_scalars);
-               cell != data.cell_scalars.end() && !scene.scalar.empty()) {
-        taken = average_to_points(data.points.size(), data.tets, *cell);
+               cell != data.cell_scalars.end() &&
+               (!scene.scalar.empty() || only_array(data.cell_scalars) != nullptr)) {
+        taken = average_to_points(data.points.size(), data.tets, *cell, data.cell_of_tet);
         averaged = true;
     } else if (scene.scalar.empty()) {
         fail(
-            "{}: has no point scalars; expected one, or \"scalar\" in the scene to name an array "
-            "of the file: {}",
-            file, list_names(data));
+            "{}: has no scalar at points, and {} one array of cells; expected one, or \"scalar\" "
+            "in "
+            "the scene (--set scalar=NAME) to name an array of the file: {}",
+            file, data.cell_scalars.empty() ? "not" : "more than", list_names(data));
     } else {
         fail("{}: scalar: found \"{}\", expected one that the file has: {}", file, scene.scalar,
              list_names(data));
@@ -280,7 +282,7 @@ SceneMesh scene_mesh(const Scene& scene, const Volume& volume) {
 SceneMesh load_mesh(const Scene& scene) {
     if (const MeshFile* const file = scene.mesh_file()) {
         Stage reading("read file");
-        MeshData data = read_mesh(file->path, file->time);
+        MeshData data = read_mesh(file->path, file->time, file->join);
         reading.end();
         return scene_mesh(scene, std::move(data));
     }

@@ -150,19 +150,108 @@ TEST_F(MeshFiles, AreReportedInOneLineIfBadAndLeaveNothing) {
     EXPECT_EQ(lamina_run({"info", path("s.json")}).exit_code, 1);
 }
 
-// Mid-edge points of a quadratic tet are not drawn; the program warns and counts them.
-TEST_F(MeshFiles, QuadraticCellsAreCountedAndDrawnStraight) {
+// The six tets of the cube have points of their own, of which those of the last tet lie 1e-9 to the
+// right and have values that are 1 larger. The faces inside the cube are six, two at each tet.
+TEST_F(MeshFiles, PointsAtOnePlaceAreCountedAndJoined) {
+    const std::vector<std::vector<int>> tets{{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7},
+                                             {0, 3, 2, 7}, {0, 6, 4, 7}, {0, 5, 1, 7}};
+    std::string nodes = "24 3 1 0\n", elements = "6 4 0\n";
+    for (int tet = 0; tet < 6; ++tet) {
+        for (int k = 0; k < 4; ++k) {
+            const int i = tets[static_cast<std::size_t>(tet)][static_cast<std::size_t>(k)];
+            nodes += fmt("%d %.10g %d %d %d\n", 4 * tet + k, (i & 1) + (tet == 5 ? 1e-9 : 0.0),
+                         i >> 1 & 1, i >> 2, i + (tet == 5));
+        }
+        elements += fmt("%d %d %d %d %d\n", tet, 4 * tet, 4 * tet + 1, 4 * tet + 2, 4 * tet + 3);
+    }
+    write("split.node", nodes);
+    write("split.ele", elements);
+    const json info = json::parse(lamina_run({"info", path("split.node"), "--json"}).out);
+    EXPECT_EQ(info["points"], 24);
+    EXPECT_EQ(info["places"], 8 + 4);
+    EXPECT_EQ(info["scalars"][0]["jumps"], 0);
+    EXPECT_EQ(info["boundary_faces"], 12 + 4);
+
+    write_scene("split.json", {{"path", "split.node"}, {"join", 1e-8}});
+    const ProgramResult result = lamina_run(
+        {"render", path("split.json"), "-o", path("split.exr"), "--stats", path("stats.json")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("4 points took the place of an earlier one, up to 1e-09 away"),
+              std::string::npos)
+        << result.err;
+    EXPECT_NE(result.err.find("24 points lie at 8 places"), std::string::npos) << result.err;
+    const json counts = json::parse(read(path("stats.json")))["counts"];
+    EXPECT_EQ(counts["copied_points"], 24 - 8);
+    EXPECT_EQ(counts["overlapping_rays"], 0);
+
+    for (std::size_t at = 0; (at = nodes.find("e-09", at)) != std::string::npos;)
+        nodes.replace(at - 1, 5, "0");
+    for (std::size_t at = 0; (at = nodes.find("1.000000001", at)) != std::string::npos;)
+        nodes.replace(at, 11, "1");
+    write("split.node", nodes);
+    const json joined = json::parse(lamina_run({"info", path("split.node"), "--json"}).out);
+    EXPECT_EQ(joined["places"], 8);
+    EXPECT_EQ(joined["scalars"][0]["jumps"], 2);
+    EXPECT_EQ(joined["boundary_faces"], 12);
+}
+
+TEST_F(MeshFiles, DrawTheOnlyArrayOfCellsAndAskForOneOfSeveral) {
+    write("c.node", "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
+    write("c.ele", "1 4 1\n1 1 2 3 4 .5\n");
+    write_scene("c.json", "c.node");
+    const ProgramResult one = lamina_run({"render", path("c.json"), "-o", path("c.exr")});
+    ASSERT_EQ(one.exit_code, 0) << one.err;
+    EXPECT_NE(one.err.find("\"tet attribute 1\" is cell data: averaged to points"),
+              std::string::npos)
+        << one.err;
+    const json info = json::parse(lamina_run({"info", path("c.ele"), "--json"}).out);
+    EXPECT_EQ(info["drawn_scalar"], "tet attribute 1");
+    EXPECT_EQ(info["percentiles"]["50"], .5);
+    EXPECT_TRUE(info["scalars"].empty());
+
+    write("c.ele", "1 4 2\n1 1 2 3 4 .5 2\n");
+    const ProgramResult two = lamina_run({"render", path("c.json"), "-o", path("d.exr")});
+    EXPECT_EQ(two.exit_code, 1);
+    for (const char* const part : {"--set scalar=NAME", "tet attribute 1", "tet attribute 2"})
+        EXPECT_NE(two.err.find(part), std::string::npos) << two.err;
+    EXPECT_EQ(lamina_run({"render", path("c.json"), "--set", "scalar=tet attribute 2", "-o",
+                          path("d.exr")})
+                  .exit_code,
+              0);
+    EXPECT_TRUE(
+        json::parse(lamina_run({"info", path("c.ele"), "--json"}).out)["drawn_scalar"].is_null());
+}
+
+// The diagonals of cut hexahedra show where the field peaks: it is said once.
+TEST_F(MeshFiles, SayOnceThatHexahedraBecomeTets) {
+    write("h.vtk",
+          "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n"
+          "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\n"
+          "CELL_TYPES 1\n12\nPOINT_DATA 8\nSCALARS s float\nLOOKUP_TABLE t\n0 0 0 0 0 0 0 1\n");
+    write_scene("h.json", "h.vtk");
+    const ProgramResult result = lamina_run({"render", path("h.json"), "-o", path("h.exr")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::size_t first = result.err.find("hexahedra or other cells are cut into tets");
+    EXPECT_NE(first, std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("cut into tets", first + 40), std::string::npos) << result.err;
+}
+
+// TetGen lists the middles of the edges 2-3, 3-0, 0-1, 1-2, 1-3 and 2-0.
+TEST_F(MeshFiles, QuadraticCellsAreCutAtTheirPointsAndCounted) {
     std::string nodes = "10 3 1 0\n1 0 0 0 0\n2 1 0 0 0\n3 0 1 0 0\n4 0 0 1 0\n";
-    for (int i = 5; i <= 10; ++i) nodes += fmt("%d %g .5 .5 0\n", i, i / 20.0);
+    nodes += "5 0 .5 .5 .5\n6 0 0 .5 .5\n7 .5 0 0 .5\n8 .5 .5 0 .5\n9 .5 0 .5 .5\n10 0 .5 0 .5\n";
     write("q.node", nodes);
     write("q.ele", "1 10 0\n1 1 2 3 4 5 6 7 8 9 10\n");
     write_scene("q.json", "q.node");
     const ProgramResult result =
         lamina_run({"render", path("q.json"), "-o", path("q.exr"), "--stats", path("stats.json")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_NE(result.err.find("1 quadratic cells are drawn with straight edges"),
+    EXPECT_NE(result.err.find("1 quadratic or higher cells are drawn as straight pieces"),
               std::string::npos);
-    EXPECT_EQ(json::parse(read(path("stats.json")))["counts"]["straightened_cells"], 1);
+    const json counts = json::parse(read(path("stats.json")))["counts"];
+    EXPECT_EQ(counts["straightened_cells"], 1);
+    EXPECT_EQ(counts["turned_over_tets"], 0);
+    EXPECT_EQ(counts["tets"], 8);
 }
 
 }  // namespace

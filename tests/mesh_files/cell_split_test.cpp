@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh_files/mesh_assembly.h"
+#include "mesh_files/cell_cuts.h"
 
 #include <gtest/gtest.h>
 
@@ -266,16 +266,22 @@ TEST(CellSplit, CollapsedHexahedraFillTheirWedge) {
     } while (std::next_permutation(numbers.begin(), numbers.end()));
 }
 
-TEST(CellSplit, EveryCellTypeIsKeptSplitSkippedOrRefused) {
-    for (const int type : {10, 24}) EXPECT_EQ(use_of_cell(type), CellUse::tet);
-    for (const int type : {11, 12, 13, 14, 25, 26, 27, 29, 31, 32, 33, 37})
-        EXPECT_EQ(use_of_cell(type), CellUse::split);
-    for (const int type : {1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23, 36, 68, 69, 70, 77}) {
-        EXPECT_EQ(use_of_cell(type), CellUse::skip) << type;
-    }
-    for (const int type : {15, 16, 41, 42, 64, 71, 72, 74, 78, 80, 99, -1}) {
-        EXPECT_EQ(use_of_cell(type), CellUse::unsupported) << type;
-    }
+TEST(CellSplit, EveryCellTypeIsCutSkippedOrRefused) {
+    const auto expect_use = [](CellUse use, std::initializer_list<int> types) {
+        for (const int type : types) {
+            ASSERT_NE(find_cell_type(type), nullptr) << type;
+            EXPECT_EQ(find_cell_type(type)->use, use) << type;
+            EXPECT_FALSE(has_no_volume(type)) << type;
+        }
+    };
+    expect_use(CellUse::straight, {10, 11, 12, 13, 14});
+    expect_use(CellUse::lattice, {24, 25, 26, 27, 29, 31, 32, 33, 37, 71, 72, 73, 74});
+    expect_use(CellUse::faces, {15, 16, 42});
+    expect_use(CellUse::refused, {41, 55, 56, 64, 65, 66, 67, 78, 79, 80, 81});
+    for (const int type : {1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23, 36, 68, 69, 70, 77})
+        EXPECT_TRUE(has_no_volume(type) && find_cell_type(type) == nullptr) << type;
+    for (const int type : {-8, -1, 17, 99})
+        EXPECT_TRUE(!has_no_volume(type) && find_cell_type(type) == nullptr) << type;
 }
 
 }  // namespace

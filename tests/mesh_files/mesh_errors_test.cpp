@@ -31,7 +31,8 @@ TEST_F(MeshErrors, NameMissingFilesAndFolders) {
 TEST_F(MeshErrors, RefuseFilesOfAnotherKind) {
     expect_bad("a.vtu", "", {"not a VTK XML file"});
     expect_bad("a.vtu", "solid cube", {"not a VTK XML file"});
-    expect_bad("a.vtu", "<VTKFile type=\"PolyData\"></VTKFile>", {"'PolyData'"});
+    expect_bad("a.vtu", "<VTKFile type=\"PolyData\"></VTKFile>", {"surface (PolyData)"});
+    expect_bad("a.vtu", "<VTKFile type=\"ImageData\"></VTKFile>", {"'ImageData'"});
     expect_bad("a.vtu", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>", {"<UnstructuredGrid>"});
     expect_bad("a.vtu", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid/></VTKFile>",
                {"<Piece>"});
@@ -58,10 +59,12 @@ TEST_F(MeshErrors, NameTheBadCell) {
     grid.cells[3].corners[0] = 2000000000;
     both(grid, {"cell 3", "index 2000000000"});
     grid = mixed_grid();
-    grid.cells[5].type = 42;
-    both(grid, {"cell 5", "cell type 42"});
-    grid.cells[5].type = 42;
-    both(grid, {"cell 5", "cell type 42"});
+    grid.cells[5].type = 41;
+    both(grid, {"cell 5", "convex point set (VTK cell type 41)", "polyhedra"});
+    grid.cells[5].type = 79;
+    both(grid, {"cell 5", "Bezier hexahedron (VTK cell type 79)", "Lagrange"});
+    grid.cells[5].type = 99;
+    both(grid, {"cell 5", "unknown type (VTK cell type 99)", "docs/meshes.md"});
     grid = mixed_grid();
     grid.cells[0].corners.pop_back();
     both(grid, {"cell 0", "tetrahedron", "found 3 points, expected 4"});

@@ -126,15 +126,6 @@ TEST_F(MeshFormats, UnusualXmlAndUnnamedArraysAreAccepted) {
     EXPECT_EQ(read("a.vtu", text).point_scalars[0].name, "array 2");
 }
 
-TEST_F(MeshFormats, QuadraticTetsGiveTheirCorners) {
-    TestGrid grid = mixed_grid();
-    grid.cells = {{24, {9, 8, 7, 6, 5, 4, 3, 2, 1, 0}}};
-    grid.cell_arrays.clear();
-    const std::vector<Tet> expected{{9, 8, 7, 6}};
-    EXPECT_EQ(read("a.vtu", make_vtu(grid)).tets, expected);
-    EXPECT_EQ(read("a.vtk", VtkMaker(true, false).file(grid)).tets, expected);
-}
-
 TEST_F(MeshFormats, NaNIsKept) {
     TestGrid grid = mixed_grid();
     grid.point_arrays[0].values[3] = std::nan("");
@@ -208,7 +199,7 @@ TEST_F(MeshFormats, TetGenIsReadCountedFrom0OrFrom1) {
     write("a.node", nodes_from_0);
     write("a.ele", "1 4 0\n0 0 1 2 3\n");
     write("b.node", nodes_from_1);
-    write("b.ele", "1 10 2\n1 1 2 3 4 1 1 1 1 1 1 7 8.5 # corners, then points on edges\n");
+    write("b.ele", "1 4 2\n1 1 2 3 4 7 8.5 # corners, then attributes\n");
     const MeshData a = read_mesh(folder() / "a.node"), b = read_mesh(folder() / "b.ele");
     EXPECT_EQ(a.points, b.points);
     EXPECT_EQ(a.points[3], glm::dvec3(0, 0, 1));
@@ -218,6 +209,24 @@ TEST_F(MeshFormats, TetGenIsReadCountedFrom0OrFrom1) {
     expect_equal(a.point_scalars, b.point_scalars);
     EXPECT_TRUE(a.cell_scalars.empty());
     expect_equal(b.cell_scalars, {{"tet attribute 1", {7}}, {"tet attribute 2", {8.5}}});
+}
+
+// TetGen ("-o2") lists corners, then the middles of the edges 2-3, 3-0, 0-1, 1-2, 1-3 and 2-0.
+TEST_F(MeshFormats, TetGenTetsOfTenNodesAreCutAtTheMiddlesOfTheirEdges) {
+    write("a.node",
+          "10 3 1 1\n1 0 0 0 0 1\n2 2 0 0 2 1\n3 0 2 0 4 1\n4 0 0 2 6 1\n5 0 1 1 5 0\n"
+          "6 0 0 1 3 0\n7 1 0 0 1 0\n8 1 1 0 3 0\n9 1 0 1 4 0\n10 0 1 0 2 0\n");
+    write("a.ele", "1 10 1\n1 1 2 3 4 5 6 7 8 9 10 -3\n");
+    const MeshData mesh = read_mesh(folder() / "a.node");
+    EXPECT_EQ(mesh.tets.size(), 8u);
+    EXPECT_EQ(mesh.points.size(), 10u);
+    EXPECT_EQ(mesh.cells.straightened, 1);
+    EXPECT_EQ(mesh.cells.turned_over, 0);  // eight tets of 1/6 each
+    expect_equal(mesh.cell_scalars, {{"tet attribute 1", std::vector<double>(8, -3)}});
+    for (std::size_t i = 0; i < 10; ++i) {
+        const glm::dvec3& p = mesh.points[i];
+        EXPECT_EQ(mesh.point_scalars[0].values[i], p.x + 2 * p.y + 3 * p.z);
+    }
 }
 
 TEST_F(MeshFormats, TetGenAttributesAreNamedByComments) {

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes in several pieces, files and time steps.
+#include <algorithm>
+#include <numeric>
+#include <random>
+
 #include "bad_mesh_files.h"
 #include "mesh/tet_mesh.h"
 #include "support/heard_warnings.h"
@@ -57,16 +61,20 @@ TEST_F(MeshPieces, ZeroAndMinusZeroAreOnePlace) {
     EXPECT_EQ(read("a.vtu", VtuMaker({"raw"}).file({one, two})).cells.merged_points, 4);
 }
 
-TEST_F(MeshPieces, WarnOfDifferentValuesAtSharedPoints) {
-    TestGrid two = cube_at(1);
+TEST_F(MeshPieces, KeepTheirOwnValuesAtSharedPlaces) {
+    TestGrid two = cube_at(1), three = cube_at(2);
     two.point_arrays[0].values[0] = 77;
-    const MeshData mesh = read("a.vtu", VtuMaker({"raw"}).file({cube_at(0), two}));
-    ASSERT_EQ(warnings_.size(), 1u);
-    EXPECT_NE(warnings_[0].find("a.vtu: Piece 2: 'value': found 1 points with other values"),
-              std::string::npos)
-        << warnings_[0];
-    for (std::size_t i = 0; i < 12; ++i)
-        EXPECT_EQ(mesh.point_scalars[0].values[i], 10 * mesh.points[i].x);
+    MeshData mesh = read("a.vtu", VtuMaker({"raw"}).file({cube_at(0), two, three}));
+    EXPECT_TRUE(warnings_.empty());
+    EXPECT_EQ(mesh.cells.merged_points, 3 + 4);
+    ASSERT_EQ(mesh.points.size(), 17u);
+    ASSERT_EQ(mesh.point_scalars[0].values.size(), 17u);
+    for (std::size_t i = 0; i < 17; ++i)
+        EXPECT_EQ(mesh.point_scalars[0].values[i], i == 8 ? 77 : 10 * mesh.points[i].x);
+    EXPECT_EQ(mesh.points[8], glm::dvec3(1, 0, 0));
+    const TetMesh joined(std::move(mesh), "a.vtu");
+    EXPECT_EQ(joined.findings().boundary_faces, 14 * 2);
+    EXPECT_EQ(joined.findings().copies, 1);
 }
 
 // Two points of one piece at one place are the two sides of a crack. Neither is merged with a point
@@ -85,6 +93,115 @@ TEST_F(MeshPieces, PointsOfACrackStayApart) {
     EXPECT_EQ(mesh.cells.merged_points, 2);  // at x = 2; each place at x = 1 has two points
     EXPECT_EQ(read("b.vtu", VtuMaker({"raw"}).file({above, cracked})).cells.merged_points, 2);
     EXPECT_EQ(read("c.vtu", make_vtu(cracked)).points.size(), 16u);
+}
+
+// Eight cubes share no points, and their points are in random orders, so that the least index of a
+// face is another one in each of its two cubes. Each cell type is cut as if the points were shared.
+TEST_F(MeshPieces, CellsThatShareNoPointsAreCutAlike) {
+    std::mt19937 random(4);
+    TestGrid grid;
+    for (int cell = 0; cell < 8; ++cell) {
+        const glm::dvec3 from(cell & 1, cell >> 1 & 1, cell >> 2);
+        std::vector<int> corners(8);
+        std::iota(corners.begin(), corners.end(), static_cast<int>(grid.points.size()));
+        std::shuffle(corners.begin(), corners.end(), random);
+        grid.points.resize(grid.points.size() + 8);
+        for (std::size_t i = 0; i < 8; ++i) {
+            const glm::dvec3 corner(i & 1, i >> 1 & 1, i >> 2);
+            grid.points[static_cast<std::size_t>(corners[i])] = from + corner;
+        }
+        if (cell % 2 == 0) {
+            grid.cells.push_back({11, corners});
+            continue;
+        }
+        // Two wedges (vtkWedge.h), which share no points with one another either.
+        for (int half = 0; half < 2; ++half) {
+            std::vector<int> wedge;
+            for (const std::size_t i : half == 0 ? std::array<std::size_t, 6>{0, 2, 1, 4, 6, 5}
+                                                 : std::array<std::size_t, 6>{1, 2, 3, 5, 6, 7}) {
+                wedge.push_back(static_cast<int>(grid.points.size()));
+                grid.points.push_back(
+                    glm::dvec3(grid.points[static_cast<std::size_t>(corners[i])]));
+            }
+            grid.cells.push_back({13, wedge});
+        }
+    }
+    MeshData mesh = read("a.vtu", make_vtu(grid));
+    ASSERT_EQ(mesh.tets.size(), 8u * 6);
+    const TetMesh joined(std::move(mesh), "a.vtu");
+    EXPECT_EQ(joined.findings().boundary_faces, 24 * 2);
+    EXPECT_EQ(joined.findings().folded_faces, 0);
+    EXPECT_EQ(joined.findings().degenerate, 0);
+    EXPECT_EQ(joined.findings().unused_points, 4 * 8);  // those of the cubes that are wedges
+}
+
+// Two curved hexahedra of 20 points share none. The second is turned, so that their common face has
+// other numbers in it. Their values differ by 1: so do those of the point that each cell makes in
+// the middle of the face. Each face of a cell is cut into eight triangles.
+TEST_F(MeshPieces, CurvedCellsThatShareNoPointsAreCutAlike) {
+    constexpr int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                  {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+    TestGrid grid;
+    testing::TestArray values{"value", "Float64", 1, {}};
+    for (int cell = 0; cell < 2; ++cell) {
+        std::vector<glm::dvec3> places;
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 local((i & 1) ^ (i >> 1 & 1), i >> 1 & 1, i >> 2);
+            places.push_back(cell == 0 ? local : glm::dvec3(1 + local.y, local.z, local.x));
+        }
+        for (const auto& [a, b] : edges)
+            places.push_back(
+                .5 * (places[static_cast<std::size_t>(a)] + places[static_cast<std::size_t>(b)]));
+        testing::TestCell added{25, {}};
+        for (const glm::dvec3& p : places) {
+            added.corners.push_back(static_cast<int>(grid.points.size()));
+            grid.points.push_back(p + .1 * glm::dvec3(p.y * (1 - p.z / 3), p.x * p.z, p.y * p.y));
+            values.values.push_back(3 * p.x + p.y * p.z + cell);
+        }
+        grid.cells.push_back(added);
+    }
+    grid.point_arrays = {values};
+    MeshData mesh = read("a.vtu", make_vtu(grid));
+    EXPECT_EQ(mesh.points.size(), 2u * 27);
+    const std::vector<double> of_points = mesh.point_scalars[0].values;
+    const TetMesh joined(std::move(mesh), "a.vtu");
+    EXPECT_EQ(joined.findings().boundary_faces, 10 * 8);
+    EXPECT_EQ(joined.findings().copies, 9);
+    EXPECT_EQ(joined.findings().folded_faces, 0);
+    EXPECT_EQ(count_jumps(joined, of_points), 8);
+    for (std::size_t i = 27; i < 54; ++i) {
+        const auto first = static_cast<std::size_t>(joined.place(static_cast<std::int32_t>(i)));
+        if (first != i) {
+            EXPECT_NEAR(std::abs(of_points[i] - of_points[first]), 1, 1e-14);
+        }
+    }
+}
+
+// The second cube's points are off by 1e-9: its face has other places, and after joining the same.
+TEST_F(MeshPieces, PointsNearEachOtherJoinOnRequest) {
+    TestGrid grid = cube_at(0), more = cube_at(1);
+    for (auto& point : more.points) point += 1e-9;
+    grid.points.insert(grid.points.end(), more.points.begin(), more.points.end());
+    grid.cells.push_back({11, {8, 9, 10, 11, 12, 13, 14, 15}});
+    auto& values = grid.point_arrays[0].values;
+    values.insert(values.end(), more.point_arrays[0].values.begin(),
+                  more.point_arrays[0].values.end());
+    const auto faces = [&](double join) {
+        return TetMesh(read_mesh(folder() / "a.vtu", 0, join), "a.vtu").findings().boundary_faces;
+    };
+    write("a.vtu", make_vtu(grid));
+    EXPECT_EQ(faces(0), 2 * 12);
+    EXPECT_EQ(faces(1e-9), 2 * 12);  // sqrt(3) times 1e-9 apart
+    EXPECT_TRUE(warnings_.empty());
+    EXPECT_EQ(faces(2e-9), 2 * 10);
+    ASSERT_EQ(warnings_.size(), 1u);
+    EXPECT_NE(warnings_[0].find("a.vtu: mesh.join: 4 points took the place of an earlier one, up "
+                                "to 1.73e-09 away"),
+              std::string::npos)
+        << warnings_[0];
+    write("a.vtu", VtuMaker({"raw"}).file({cube_at(0), more}));
+    EXPECT_EQ(faces(0), 2 * 12);
+    EXPECT_EQ(faces(2e-9), 2 * 10);
 }
 
 TEST_F(MeshPieces, GhostCellsAreLeftOut) {

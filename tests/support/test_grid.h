@@ -104,7 +104,7 @@ inline std::vector<MeshScalar> scalars_of(const TestArray& array) {
     return scalars;
 }
 
-// Returns the mesh that read_mesh() should make of a grid.
+// Returns the mesh that read_mesh() should make of a grid of cells with straight edges.
 inline MeshData expected_mesh(const TestGrid& grid) {
     MeshData mesh;
     mesh.points = grid.points;
@@ -116,19 +116,14 @@ inline MeshData expected_mesh(const TestGrid& grid) {
             ++mesh.cells.skipped;
             continue;
         }
-        if (cell.type == 10 || cell.type == 24) {
+        if (cell.type == 10) {
             mesh.tets.push_back({c[0], c[1], c[2], c[3]});
         } else {
-            // VTK types above 20 are quadratic cells (25: a quadratic hexahedron), of which only
-            // the corners count.
-            const int straight = cell.type < 20 ? cell.type : cell.type == 29 ? 12 : cell.type - 13;
-            const std::size_t corners = straight > 12 ? static_cast<std::size_t>(19 - straight) : 8;
-            const SplitCell split = split_cell(straight, std::span(c).first(corners), grid.points);
+            const SplitCell split = split_cell(cell.type, c, grid.points);
             mesh.tets.insert(mesh.tets.end(), split.tets.begin(),
                              split.tets.begin() + static_cast<std::ptrdiff_t>(split.count));
             ++mesh.cells.split;
         }
-        mesh.cells.straightened += cell.type > 20;
         cell_of_tet.resize(mesh.tets.size(), i);
     }
     for (const auto& array : grid.point_arrays) {
