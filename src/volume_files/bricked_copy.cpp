@@ -255,6 +255,20 @@ Grid grid_in(const Json& json, const ZarrArray& array) {
     return grid;
 }
 
+// A copy keeps what its file lists, which is not opened when the copy is.
+Json json_of(const VolumeContents& contents) {
+    return {{"arrays", contents.arrays},
+            {"channels", contents.channels},
+            {"times", contents.times},
+            {"levels", contents.levels},
+            {"colour", contents.is_colour}};
+}
+
+VolumeContents contents_in(const Json& json) {
+    return {json.at("arrays"), json.at("channels"), json.at("times"), json.at("levels"),
+            json.at("colour")};
+}
+
 // Returns the samples of a chunk along each axis: 64, unless a layer of chunks, which is in memory
 // while it is written, would exceed a quarter of the memory limit. Chunks are then flatter (min 4
 // slices) and wider; if there would be more than most_chunks, they are wider still.
@@ -317,9 +331,13 @@ BrickedCopy write_bricked_copy(const Path& file, const VolumeRequest& request) {
     stored.spacing.reset();
     stored.origin.reset();
     const std::string of = copied(file, stored);
-    const Volume volume = open_volume(file, stored, {.residence = VolumeUse::Residence::in_order});
+    VolumeContents contents;
+    const Volume volume = open_volume(
+        file, stored, {.residence = VolumeUse::Residence::in_order, .contents = &contents});
     ReplacedFolder folder(bricked_copy_of(file));
-    const Json attributes{{attribute, {{"of", of}, {"grid", json_of(volume.grid())}}}};
+    const Json attributes{
+        {attribute,
+         {{"of", of}, {"grid", json_of(volume.grid())}, {"contents", json_of(contents)}}}};
     ZarrWriter writer(folder.temporary(), volume.grid().size,
                       chunk_edge(volume.grid(), volume.type()),
                       *value_type_of(name_of(volume.type())), attributes);
@@ -347,17 +365,19 @@ std::optional<Volume> open_bricked_copy(const Path& file, const VolumeRequest& r
     try {
         const Json attributes = load_json(folder / ".zattrs");
         const Json& about = attributes.at(attribute);
-        const ZarrArray array = read_zarray(folder);
+        const ZarrArray array = read_zarray({}, folder);
         const auto type = drawn_type(array.type);
         if (array.shape.size() != 3 || !type) return is_not_used("damaged");
         Grid grid = grid_in(about.at("grid"), array);
         check_grid(folder.string(), grid, {"step", "origin"});
         if (!stays_in_files(grid, *type, use)) return {};
         if (about.at("of") != copied(file, request)) return is_not_used("of other samples");
+        if (!about.contains("contents")) return is_not_used("of an older version");
         ZarrChunks chunks(array, {{0, 1, 2}, {0, 0, 0}});
         auto hashes = read_chunk_hashes(folder, chunks.count());
         if (!hashes) return is_not_used("damaged");
         chunks.set_expected_hashes(std::move(*hashes));
+        if (use.contents != nullptr) *use.contents = contents_in(about["contents"]);
         return stored_volume(grid, *type, std::make_unique<ZarrSource>(std::move(chunks)));
     } catch (const Json::exception&) {
     } catch (const Error&) {

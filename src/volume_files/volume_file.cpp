@@ -7,9 +7,11 @@
 #include <cctype>
 #include <glm/geometric.hpp>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "volume_files/bricked_copy.h"
+#include "volume_files/folder_contents.h"
 #include "volume_files/volume_formats.h"
 
 namespace lamina {
@@ -54,19 +56,26 @@ constexpr const char* dicom_name = "DICOM without compression";
 constexpr VolumeFormat formats[] = {
     {"NRRD", {".nrrd", ".nhdr"}, is_nrrd, open_nrrd, files_of_nrrd, has_channels | has_times},
     {"Zarr",
-     {".zarr"},
+     {".zarr", ".zarr.zip"},
      is_zarr,
      open_zarr,
      files_of_zarr,
      has_arrays | has_levels | has_channels | has_times},
 #ifdef LAMINA_HAS_HDF5
     {"HDF5",
-     {".h5", ".hdf5", ".nc"},
+     {".h5", ".hdf5", ".ims", ".vtkhdf"},
      is_hdf5,
      open_hdf5,
      files_of_hdf5,
-     has_arrays | has_channels | has_times},
+     has_arrays | has_levels | has_channels | has_times},
 #endif
+    {"NetCDF",
+     {".nc", ".cdf"},
+     is_netcdf_classic,
+     open_netcdf_classic,
+     files_of_netcdf_classic,
+     has_arrays | has_channels | has_times,
+     true},
     {dicom_name, {".dcm"}, is_dicom, open_dicom, files_of_dicom, has_arrays | has_times, true},
     {"MetaImage",
      {".mha", ".mhd"},
@@ -80,9 +89,27 @@ constexpr VolumeFormat formats[] = {
      open_nifti,
      files_of_nifti,
      has_channels | has_times},
-    {"VTK image data", {".vti"}, is_vti, open_vti, that_file, has_arrays | has_channels, true},
-    {"TIFF", {".tif", ".tiff"}, is_tiff, open_tiff, files_of_tiff, has_channels | has_times, true},
-    {"NumPy", {".npy"}, is_npy, open_npy, that_file, has_none}};
+    {"VTK image data",
+     {".vti", ".vtr", ".pvti", ".pvtr"},
+     is_vti,
+     open_vti,
+     files_of_vti,
+     has_arrays | has_channels | has_times,
+     true},
+    {"TIFF",
+     {".tif", ".tiff"},
+     is_tiff,
+     open_tiff,
+     files_of_tiff,
+     has_arrays | has_channels | has_times},
+    {"NumPy", {".npy", ".npz"}, is_npy, open_npy, that_file, has_arrays | has_channels | has_times},
+    {"PNG or JPEG",
+     {".png", ".jpg", ".jpeg"},
+     is_pictures,
+     open_pictures,
+     files_of_pictures,
+     has_channels,
+     true}};
 
 bool has_extension(const VolumeFormat& format, const Path& path) {
     std::string name = path.filename().string();
@@ -139,8 +166,15 @@ const VolumeFormat& expected_format(const Path& path) {
     if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
         expect_regular_file(path);
     const VolumeFormat* const format = format_of(path);
+#ifndef LAMINA_HAS_HDF5
+    if (is_hdf5(path)) {
+        fail("{}: found an HDF5 file: this lamina was built without HDF5 (LAMINA_WITH_HDF5)",
+             path.string());
+    }
+#endif
     if (format != nullptr) return *format;
-    if (!std::filesystem::is_directory(path)) expect_regular_file(path);
+    expect_no_folder(path);
+    expect_regular_file(path);
     fail("{}: unknown kind of volume: expected {}, or its size and type (--raw)", path.string(),
          volume_format_names());
 }
@@ -162,7 +196,7 @@ void expect_known_keys(const Path& path, const VolumeFormat& format, const Volum
 // lookup.
 Volume placed(const Path& path, const Volume& volume, const VolumeRequest& request) {
     Grid grid = volume.grid();
-    grid.lookup = request.lookup;
+    grid.lookup = request.lookup.value_or(VolumeLookup::linear);
     if (!request.spacing && !request.origin) return volume.on(grid);
     for (int axis = 0; axis < 3 && request.spacing; ++axis) {
         glm::dvec3& step = grid.step[static_cast<std::size_t>(axis)];
@@ -176,8 +210,13 @@ Volume placed(const Path& path, const Volume& volume, const VolumeRequest& reque
 }  // namespace
 
 bool is_volume_file(const Path& path) {
+    return !volume_format_of(path).empty();
+}
+
+std::string_view volume_format_of(const Path& path) {
     expect_allowed(path);
-    return format_of(path) != nullptr;
+    const VolumeFormat* const format = format_of(path);
+    return format == nullptr ? "" : format->name;
 }
 
 Volume read_volume(const Path& path, const VolumeRequest& request) {
@@ -200,6 +239,9 @@ Volume open_volume(const Path& path, const VolumeRequest& request, const VolumeU
 
 std::vector<Path> files_of_volume(const Path& path, const VolumeRequest& request) {
     expect_allowed(path);
+    Client quiet = ClientScope::current();  // opening the volume gives the warnings
+    quiet.warnings = nullptr;
+    const ClientScope scope(quiet);
     try {
         return (request.raw ? raw_format : expected_format(path)).files(path);
     } catch (const Error&) {

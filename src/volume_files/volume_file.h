@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lamina/volume.h"
@@ -13,6 +14,8 @@ namespace lamina {
 // Tells if a file or folder is a volume: by its content or, if that does not tell, by its extension
 // (upper or lower case).
 bool is_volume_file(const std::filesystem::path& path);
+// Returns the name of the format that is_volume_file() finds; empty if it finds none.
+std::string_view volume_format_of(const std::filesystem::path& path);
 
 // Reads a volume of any format into memory. Throws Error: one line that names the file, what was
 // found and what was expected. Warnings (base/client.h) say which of several arrays, channels or

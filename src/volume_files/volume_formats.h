@@ -24,26 +24,34 @@ Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request
                  const VolumeUse& use = {});
 std::vector<std::filesystem::path> files_of_nrrd(const std::filesystem::path& path);
 
-// A folder with an array of Zarr version 2 or an OME-Zarr image, of which one level is read. A
-// plain array has the axes (time, channel,) z, y, x; its samples are 1 apart. In a group,
-// `request.array` names an array or image, unless there is only one.
+// A folder or ZIP archive with an array of Zarr version 2 or 3, or an OME-Zarr image, of which one
+// level is read. Axes of a plain array have the meaning of their names, or are (time, channel,) z,
+// y, x; arrays of coordinates place its samples, else they are 1 apart. In a group, `request.array`
+// names an array or image, unless there is only one.
 bool is_zarr(const std::filesystem::path& path);
 Volume open_zarr(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use);
 std::vector<std::filesystem::path> files_of_zarr(const std::filesystem::path& path);
 
 // An HDF5 or NetCDF-4 file, or an array in it, "FILE.h5:/PATH", which `request.array` may name,
-// too. Its axes are z, y, x, with the time before them if there are four, time and channel if there
-// are five. Spacing and origin come from dimension scales (NetCDF's coordinate variables) or the
-// attribute element_size_um. Arrays with scale_factor or add_offset do not stay in the file.
+// too. Axes, places and missing samples are those that attributes and dimension scales say
+// (hdf5_layout.h, array_axes.h, packed_values.h); unnamed axes are z, y, x, with time and channel
+// before them. Scaled samples do not stay in the file. is_hdf5() is there without libhdf5, too.
 bool is_hdf5(const std::filesystem::path& path);
 Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use);
 std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& path);
 
+// Classic NetCDF (CDF-1, CDF-2 and CDF-5), with axes and missing samples as in NetCDF-4.
+bool is_netcdf_classic(const std::filesystem::path& path);
+Volume open_netcdf_classic(const std::filesystem::path& path, const VolumeRequest& request,
+                           const VolumeUse& use);
+std::vector<std::filesystem::path> files_of_netcdf_classic(const std::filesystem::path& path);
+
 // A DICOM file of several frames, or one series of a folder of DICOM files: the one whose UID or
 // description request.array names, else the largest. If a series has several images at each place,
-// request.time chooses. A folder is DICOM if one of its first 64 files is.
+// request.time chooses. A folder is DICOM if one of its first 64 files is, or, if it has none but a
+// DICOMDIR, of those in the folders inside it.
 bool is_dicom(const std::filesystem::path& path);
 Volume open_dicom(const std::filesystem::path& path, const VolumeRequest& request,
                   const VolumeUse& use);
@@ -66,26 +74,38 @@ Volume open_nifti(const std::filesystem::path& path, const VolumeRequest& reques
                   const VolumeUse& use);
 std::vector<std::filesystem::path> files_of_nifti(const std::filesystem::path& path);
 
-// VTK XML image data: the request's array, else the one that its piece calls Scalars, else the
-// first; arrays of points come before those of cells. Samples of points are nodes; those of cells
-// lie in the cells' middles. Components are channels. Pieces are put together.
+// VTK image data and rectilinear grids with even steps: XML files, their parallel forms, legacy
+// files, and a .pvd of them, whose steps are times. The request's array, else the one that the file
+// calls its scalars, else the first; arrays of points come before those of cells. Samples of points
+// are nodes; those of cells lie in the cells' middles. Components are channels. Pieces are put
+// together. is_vti() also knows VTK's kinds that are neither volume nor mesh: open_vti() says so.
 bool is_vti(const std::filesystem::path& path);
 Volume open_vti(const std::filesystem::path& path, const VolumeRequest& request,
                 const VolumeUse& use);
+std::vector<std::filesystem::path> files_of_vti(const std::filesystem::path& path);
 
 // TIFF or BigTIFF with every compression that libtiff knows: slices are the pages of a file, or of
 // a folder's files by the numbers in their names; all have one size and type. Samples of a pixel
-// are channels; descriptions by ImageJ or OME give channels, times and distances.
+// are channels; descriptions by ImageJ, OME or tifffile give channels, times and distances. An OME
+// data set may have several files and images, of which `request.array` names one.
 bool is_tiff(const std::filesystem::path& path);
 Volume open_tiff(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use);
 std::vector<std::filesystem::path> files_of_tiff(const std::filesystem::path& path);
 
-// NumPy's format (NEP 1): an array [z, y, x] of any real type, byte order and memory order. Samples
-// lie 1 apart from 0 on, as nodes.
+// NumPy's format (NEP 1): an array [z, y, x] of any real type, byte order and memory order, with up
+// to two axes more for channels and times; or an archive of arrays (.npz), of which `request.array`
+// names one. Samples lie 1 apart from 0 on, as nodes.
 bool is_npy(const std::filesystem::path& path);
 Volume open_npy(const std::filesystem::path& path, const VolumeRequest& request,
                 const VolumeUse& use);
+
+// A PNG or JPEG file, a slice, or a folder of such files of one size and type, slices by the
+// numbers in their names. Their colours are channels. Most of the folder's files must be pictures.
+bool is_pictures(const std::filesystem::path& path);
+Volume open_pictures(const std::filesystem::path& path, const VolumeRequest& request,
+                     const VolumeUse& use);
+std::vector<std::filesystem::path> files_of_pictures(const std::filesystem::path& path);
 
 // Returns the type of NumPy's type word without byte order, such as "f8". "b1" (truth) is a byte.
 std::optional<ValueType> numpy_type(std::string_view word);

@@ -170,7 +170,23 @@ Volume stored_volume(const Grid& grid, SampleType type,
     return Volume(grid, type, std::make_shared<const VolumeStore>(grid, type, std::move(source)));
 }
 
+namespace {
+
+// Counts the channels and times of data, unless the reader has listed them by name.
+void list_taken(const StoredData& data, VolumeContents& contents) {
+    constexpr std::int64_t most_listed = 65536;  // a file of more is damaged, or not for people
+    for (const StoredAxis& axis : data.axes) {
+        if (!axis.taken || axis.size == 1 || axis.size > most_listed) continue;
+        const bool is_channel = std::string_view(axis.what) == "channel";
+        std::vector<std::string>& names = is_channel ? contents.channels : contents.times;
+        if (names.empty()) names.resize(static_cast<std::size_t>(axis.size));
+    }
+}
+
+}  // namespace
+
 Volume open_stored(const Grid& grid, const StoredData& data, const VolumeUse& use) {
+    if (use.contents != nullptr) list_taken(data, *use.contents);
     if (StreamSource::can_read(data) && use.residence == VolumeUse::Residence::in_order)
         return stored_volume(grid, *drawn_type(data.type),
                              std::make_unique<StreamSource>(data, grid.size));

@@ -23,15 +23,25 @@ std::filesystem::path scratch_in(const std::string& folder, const std::string& n
 }  // namespace
 
 void run_zarr(std::string_view input) {
+    if (input.starts_with("PK")) {
+        const auto file = scratch_file("volume.zarr.zip", input);
+        if (!is_volume_file(file)) return;
+        may_fail([&] { check_volume(read_volume(file)); });
+        return;
+    }
     const InputParts array = parts_of(input), rest = parts_of(array.second);
     if (!stays_in_folder(rest.first)) return;  // attributes may name folders
+    const bool is_version_3 = array.first.find("node_type") != array.first.npos;
     std::filesystem::remove_all(scratch_folder() / "volume.zarr");
-    scratch_in("volume.zarr/0", ".zarray", array.first);
-    scratch_in("volume.zarr/0", "0.0.0", rest.second);
-    scratch_in("volume.zarr/0", "0.0.0.0.0", rest.second);
-    scratch_in("volume.zarr/0/0/0", "0", rest.second);
-    const auto image = scratch_in("volume.zarr", ".zattrs", rest.first);
-    may_fail([&] { check_volume(read_volume(rest.first.empty() ? image / "0" : image)); });
+    scratch_in("volume.zarr/0", is_version_3 ? "zarr.json" : ".zarray", array.first);
+    for (const char* const name : {"0.0.0", "0.0.0.0.0", "c.0.0.0"})
+        scratch_in("volume.zarr/0", name, rest.second);
+    for (const char* const place : {"volume.zarr/0/0/0", "volume.zarr/0/c/0/0"})
+        scratch_in(place, "0", rest.second);
+    const auto folder = scratch_folder() / "volume.zarr";
+    const bool is_image = rest.first.find_first_not_of('\n') != rest.first.npos;
+    if (is_image) scratch_in("volume.zarr", is_version_3 ? "zarr.json" : ".zattrs", rest.first);
+    may_fail([&] { check_volume(read_volume(is_image ? folder : folder / "0")); });
 }
 
 void run_hdf5(std::string_view input) {

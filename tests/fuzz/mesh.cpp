@@ -65,19 +65,6 @@ void check_mesh(MeshData data) {
     check_project_plans(scene, mesh);
 }
 
-// Tells whether all files that an index (.pvd, .pvtu) names are in the scratch folder.
-bool names_stay_in_folder(std::string_view index) {
-    for (const char* const attribute : {"file=\"", "Source=\"", "file='", "Source='"}) {
-        for (std::size_t at = index.find(attribute); at != index.npos;
-             at = index.find(attribute, at + 1)) {
-            const std::size_t from = index.find_first_of("\"'", at) + 1;
-            const std::size_t end = std::min(index.find_first_of("\"'", from), index.size());
-            if (!stays_in_folder(index.substr(from, end - from))) return false;
-        }
-    }
-    return index.find("&#") == index.npos;  // a character reference, which may stand for a slash
-}
-
 void run_mesh(const char* name, std::string_view input) {
     const auto file = scratch_file(name, input);
     may_fail([&] { check_mesh(read_mesh(file)); });

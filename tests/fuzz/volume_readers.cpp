@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The targets metaimage, nifti, npy_volume, tiff and vti: volumes are read, measured and planned.
+// The targets metaimage, netcdf, nifti, npy_volume, pictures, tiff and vti: volumes are read,
+// measured and planned.
 #include <algorithm>
 
 #include "input_parts.h"
@@ -41,6 +42,10 @@ void run_metaimage(std::string_view input) {
     run_reader(parts.first, "volume.mhd", open_metaimage);
 }
 
+void run_netcdf(std::string_view input) {
+    run_reader(input, "volume.nc", open_netcdf_classic);
+}
+
 void run_nifti(std::string_view input) {
     const InputParts parts = parts_of(input);
     scratch_file("volume.img", parts.second);
@@ -51,12 +56,19 @@ void run_npy_volume(std::string_view input) {
     run_reader(input, "volume.npy", open_npy);
 }
 
+void run_pictures(std::string_view input) {
+    run_reader(input, "volume.picture", open_pictures);
+}
+
 void run_tiff(std::string_view input) {
     run_reader(input, "volume.tif", open_tiff);
 }
 
 void run_vti(std::string_view input) {
-    run_reader(input, "volume.vti", open_vti);
+    const InputParts parts = parts_of(input);
+    if (!names_stay_in_folder(parts.first)) return;
+    scratch_file("piece.vti", parts.second);
+    run_reader(parts.first, "volume.vti", open_vti);
 }
 
 }  // namespace lamina::fuzz

@@ -5,9 +5,12 @@ FOLDER with their own libraries (zarr, h5py, pydicom), and to FOLDER/cases.json 
 path, request, size, origin, steps, and the values as FOLDER/NAME.values (float64, x fastest). A case with "error"
 should be refused with those words. Exits with 77 where a library is not installed.
 """
+import base64
 import json
 import os
+import struct
 import sys
+import zipfile
 
 try:
     import h5py
@@ -18,8 +21,12 @@ try:
     from pydicom.dataset import Dataset, FileMetaDataset
     from pydicom.uid import (ExplicitVRBigEndian, ExplicitVRLittleEndian, ImplicitVRLittleEndian, RLELossless,
                              generate_uid)
+
+    from dicom_kinds import kinds_of_dicom
 except ImportError:
     sys.exit(77)
+from oracles import zarr3
+from oracles.zarr3 import codec, shard
 
 FOLDER = sys.argv[1]
 CASES = []
@@ -33,12 +40,6 @@ def case(name, path, values, steps=None, origin=(0, 0, 0), **request):
     values.astype("<f8").tofile(f"{FOLDER}/{name}.values")
     CASES.append({"name": name, "path": path, "size": list(values.shape[::-1]), "origin": [float(v) for v in origin],
                   "steps": [[float(v) for v in step] for step in (steps or UNIT)], "request": request})
-
-
-def case_elsewhere(name, path, values):
-    """The samples lie in another file than `path`: --only-below refuses them, even in the same folder."""
-    case(name, path, values)
-    CASES[-1]["elsewhere"] = True
 
 
 def bad(name, path, *words, **request):
@@ -97,6 +98,10 @@ def zarr_cases():
     bad("five_beyond", path, "time", "found 3", "0 to 2", time=3)
     four = samples("<i2", (3, 4, 5, 6))
     case("four", save_zarr("four", four, chunks=(1, 4, 5, 6)), four[1], channel=1)
+    colours = samples("<u2", (7, 5, 6, 3))
+    path = save_zarr("colours", colours, chunks=(2, 4, 3, 2))
+    case("colours", path, colours[..., 2], channel=2)
+    case("colours_time", path, colours[4], time=4)
 
     group = zarr.open_group(f"{FOLDER}/group.zarr", mode="w")
     group.create_dataset("a/one", data=ramp[:5, :5, :5], chunks=(2, 2, 2))
@@ -112,12 +117,12 @@ def zarr_cases():
     bad("delta", "delta.zarr", "filters", "delta")
     save_zarr("bz2", ramp, compressor=numcodecs.BZ2())
     bad("bz2", "bz2.zarr", "compressor", "bz2", "blosc")
-    save_zarr("half", ramp.astype("f2"))
-    bad("half", "half.zarr", "dtype", "<f2")
-    os.mkdir(f"{FOLDER}/v3.zarr")
-    with open(f"{FOLDER}/v3.zarr/zarr.json", "w") as out:
-        out.write("{}")
-    bad("v3", "v3.zarr", "version 3")
+    for dtype in ("<f2", ">f2"):
+        half = samples(dtype)
+        # Subnormal, infinite and no numbers, too.
+        half[0, 0, :4] = np.array([6e-8, -6e-5, -np.inf, np.nan], "f2")
+        name = "half_" + ("little" if dtype[0] == "<" else "big")
+        case(name, save_zarr(name, half), half)
 
     image = zarr.open_group(f"{FOLDER}/image.zarr", mode="w")
     fine = samples("<u2", (2, 3, 4, 8, 10))
@@ -138,6 +143,194 @@ def zarr_cases():
     zyx.create_dataset("s0", data=ramp, chunks=(10, 10, 10))
     zyx.attrs["multiscales"] = [{"version": "0.3", "axes": ["z", "y", "x"], "datasets": [{"path": "s0"}]}]
     case("zyx", "zyx.zarr", ramp)
+
+
+def zarr3_cases():
+    def save(name, array, chunks=(2, 4, 3), codecs=None, values=None, request=None, **how):
+        zarr3.write(f"{FOLDER}/{name}.zarr", array, chunks, codecs, **how)
+        case(name, f"{name}.zarr", array if values is None else values, **(request or {}))
+
+    for kind in ("bool", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f2", "f4", "f8"):
+        for endian in ("little", "big"):
+            save(f"3_{kind}_{endian}", samples(kind), codecs=[codec("bytes", endian=endian)])
+    save("3_no_endian", samples("u1"), codecs=[codec("bytes")])
+    packers = {"gzip": codec("gzip", level=5), "zstd": codec("zstd", level=3, checksum=False),
+               "lz4": codec("blosc", cname="lz4", clevel=5, shuffle="shuffle", typesize=2, blocksize=0),
+               "bits": codec("blosc", cname="zstd", clevel=5, shuffle="bitshuffle", typesize=2, blocksize=0),
+               "crc": codec("crc32c")}
+    ramp = np.arange(40 * 30 * 20, dtype="<u2").reshape(20, 30, 40)
+    words = codec("bytes", endian="little")
+    for name, packer in packers.items():
+        save("3_" + name, ramp, (8, 16, 32), [words, packer])
+    save("3_crc_last", ramp, (8, 16, 32), [words, packers["zstd"], codec("crc32c")])
+    save("3_crc_first", ramp, (8, 16, 32), [words, codec("crc32c"), packers["gzip"], codec("crc32c")])
+    # Neither order is its own inverse.
+    turn = codec("transpose", order=[2, 0, 1])
+    save("3_turned", ramp, (8, 16, 32), [turn, words])
+    save("3_turned_twice", ramp, (8, 16, 32), [turn, codec("transpose", order=[0, 2, 1]), words])
+    for name, keys in (("slash", codec("default", separator="/")), ("dot", codec("default", separator=".")),
+                       ("default", codec("default")), ("v2", codec("v2")), ("v2_slash", codec("v2", separator="/"))):
+        save("3_keys_" + name, ramp, (8, 16, 32), keys=keys)
+
+    inner = [words, packers["zstd"]]
+    some = ramp.copy()
+    some[4:12, :8, 8:24] = 7  # inner chunks and whole shards of the fill value
+    some[:, 16:, :16] = 7
+    for name, how in (("end", {}), ("start", {"index_location": "start"}),
+                      ("plain", {"index_codecs": [words]}),
+                      ("big", {"index_codecs": [codec("bytes", endian="big"), codec("crc32c")]})):
+        save("3_shard_" + name, some, (8, 16, 16), [shard((4, 8, 8), inner, **how)], fill=7)
+    save("3_shard_crc", some, (8, 16, 16), [shard((4, 8, 8), [words, packers["lz4"], codec("crc32c")])], fill=7)
+    save("3_shard_inner_turn", some, (8, 16, 16), [shard((4, 8, 8), [turn, *inner])], fill=7)
+    # The shard's axes are those of the transposed chunk: (16, 8, 16).
+    save("3_shard_turn", some, (8, 16, 16), [turn, shard((4, 4, 8), inner)], fill=7)
+    save("3_shard_turns", some, (8, 16, 16), [turn, shard((4, 4, 8), [turn, *inner])], fill=7)
+    five = samples("<i2", (3, 2, 4, 5, 6))
+    save("3_shard_five", five, (2, 2, 4, 4, 4), [shard((1, 1, 2, 2, 4), inner)], values=five[2, 1],
+         request={"time": 2, "channel": 1})
+
+    for kind, fill, word in (("f4", np.nan, "NaN"), ("f8", np.inf, "Infinity"), ("f2", -np.inf, "-Infinity"),
+                             ("f4", -1.5, -1.5), ("f4", np.inf, "0x7f800000"), ("f8", -2.5, "0xc004000000000000"),
+                             ("f2", 1.5, "0x3e00"), ("bool", True, True), ("i1", -128, -128),
+                             ("u8", 2**40 + 2**20, 2**40 + 2**20), ("u1", 255, 255)):
+        holes = samples(kind, (6, 7, 8))
+        holes[:4, :4, :4] = fill
+        save(f"3_fill_{kind}_{word}", holes, (4, 4, 4), fill=fill, fill_json=word)
+
+    save("3_xyz", ramp, (8, 16, 32), values=ramp.transpose(), dimension_names=["x", "y", "z"])
+    save("3_named_time", ramp, (8, 16, 32), values=ramp[None, 3], dimension_names=["time", "y", "x"],
+         request={"time": 3})
+    save("3_null_names", ramp, (8, 16, 32), dimension_names=[None, "y", None])
+    save("3_ignored", ramp, (8, 16, 32), storage_transformers=[],
+         consolidated_metadata=None, odd={"must_understand": False})
+
+    zarr3.write_group(f"{FOLDER}/3_group.zarr")
+    zarr3.write_group(f"{FOLDER}/3_group.zarr/a")
+    zarr3.write(f"{FOLDER}/3_group.zarr/a/one", ramp, (8, 16, 32))
+    zarr3.write(f"{FOLDER}/3_group.zarr/a/flat", ramp[0], (16, 32))  # no volume beside one
+    case("3_group", "3_group.zarr", ramp)
+    case("3_group_told", "3_group.zarr", ramp[:1], array="a/flat")
+
+
+def ome_cases():
+    def axes(*units):
+        kinds = {"t": "time", "c": "channel"}
+        return [{"name": n, "type": kinds.get(n, "space"), **({"unit": u} if u else {})} for n, u in units]
+
+    def scaled(path, scale, *shift):
+        return {"path": path, "coordinateTransformations": [
+            {"type": "scale", "scale": scale}, *({"type": "translation", "translation": list(s)} for s in shift)]}
+
+    fine = samples("<u2", (2, 3, 4, 8, 10))
+    tczyx = axes(("t", "second"), ("c", ""), ("z", "nanometer"), ("y", "micrometer"), ("x", "micrometer"))
+    image = f"{FOLDER}/ome5.zarr"
+    zarr3.write_group(image, ome={"version": "0.5", "multiscales": [{
+        "axes": tczyx, "datasets": [scaled("0", [2, 1, 2000, .5, .25]),
+                                    scaled("1", [2, 1, 2000, 1, .5], (0, 0, 3000, 4, 5))],
+        "coordinateTransformations": [{"type": "scale", "scale": [1, 1, 10, 10, 10]},
+                                      {"type": "translation", "translation": [0, 0, 1000, 2, 3]}]}],
+        "omero": {"channels": [{"label": "DAPI"}, {"label": "GFP"}, {"label": "RFP"}]}})
+    sharded = [shard((1, 1, 2, 4, 4), [codec("bytes", endian="little"), codec("zstd", level=1)])]
+    zarr3.write(image + "/0", fine, (1, 1, 4, 8, 8), sharded)
+    zarr3.write(image + "/1", fine[..., ::2, ::2], (1, 1, 4, 4, 8), sharded)
+    # z is in nanometers, x in micrometers.
+    case("ome5", "ome5.zarr", fine[0, 0], [[2.5, 0, 0], [0, 5, 0], [0, 0, 20]], (3, 2, 1))
+    case("ome5_level", "ome5.zarr", fine[1, 2, :, ::2, ::2], [[5, 0, 0], [0, 10, 0], [0, 0, 20]],
+         (53, 42, 31), level=1, time=1, channel=2)
+    case("ome5_array", "ome5.zarr", fine[0, 0, :, ::2, ::2], [[5, 0, 0], [0, 10, 0], [0, 0, 20]], (53, 42, 31),
+         array="1")
+    zarr3.write_group(image + "/labels", ome={"version": "0.5", "labels": ["cells"]})
+    zarr3.write_group(image + "/labels/cells", ome={"version": "0.5", "multiscales": [{
+        "axes": axes(("z", ""), ("y", ""), ("x", "")), "datasets": [scaled("0", [3, 2, 1])]}], "image-label": {}})
+    cells = samples("u1", (4, 8, 10))
+    zarr3.write(image + "/labels/cells/0", cells, (4, 8, 10))
+    case("ome5_labels", "ome5.zarr", cells, [[1, 0, 0], [0, 2, 0], [0, 0, 3]], array="labels/cells")
+    # Axes in another order than the convention's.
+    turned = zarr.open_group(f"{FOLDER}/turned.zarr", mode="w")
+    turned.create_dataset("0", data=fine[0].transpose(3, 2, 0, 1), chunks=(4, 4, 1, 2))
+    turned.attrs["multiscales"] = [{"version": "0.4", "axes": axes(("x", "mm"), ("y", ""), ("c", ""), ("z", "mm")),
+                                    "datasets": [scaled("0", [1, 2, 1, 3])]}]
+    case("ome_turned", "turned.zarr", fine[0, 1], [[1, 0, 0], [0, 2, 0], [0, 0, 3]], channel=1)
+
+    def several(name, **attributes):
+        group = zarr.open_group(f"{FOLDER}/{name}.zarr", mode="w")
+        group.attrs.update(attributes)
+        for path in ("A/1/0", "A/1/1") if "plate" in attributes else ("0", "1"):
+            inner = group.create_group(path)
+            inner.create_dataset("s0", data=fine[0, 0], chunks=(4, 8, 8))
+            inner.attrs["multiscales"] = [{"version": "0.4", "axes": axes(("z", ""), ("y", ""), ("x", "")),
+                                           "datasets": [scaled("s0", [4, 3, 2])]}]
+    several("series", **{"bioformats2raw.layout": 3})
+    bad("ome_series", "series.zarr", "0, 1", "expected one, as in", "series.zarr/0")
+    case("ome_series_1", "series.zarr", fine[0, 0], [[2, 0, 0], [0, 3, 0], [0, 0, 4]], array="1")
+    several("plate", plate={"wells": [{"path": "A/1"}]})
+    bad("ome_plate", "plate.zarr", "is a plate", "A/1/0, A/1/1")
+    case("ome_field", "plate.zarr", fine[0, 0], [[2, 0, 0], [0, 3, 0], [0, 0, 4]], array="A/1/1")
+
+
+def xarray_cases():
+    """Groups as xarray writes them: names of axes, coordinates beside the array, packed and missing values."""
+    group = zarr.open_group(f"{FOLDER}/xarray.zarr", mode="w")
+    values = samples("<i2", (2, 4, 5, 6))
+    values[0, 0, 0, :3] = -999
+
+    def add(name, data, axes, **attributes):
+        stored = group.create_dataset(name, data=data, fill_value=attributes.pop("fill", None))
+        stored.attrs.update(_ARRAY_DIMENSIONS=axes, **attributes)
+    add("lon", np.arange(6) * .5 + 10, ["lon"], units="degrees_east")
+    add("lat", 40 - np.arange(5) * 2., ["lat"], units="degrees_north")
+    add("level", np.array([1000, 900, 700, 500]), ["level"], units="hPa")  # uneven
+    add("time", np.array([0, 6]), ["time"], units="hours since 2000-01-01")
+    add("air", values, ["time", "level", "lat", "lon"], scale_factor=.5, add_offset=-3.)
+    steps = [[.5, 0, 0], [0, -2, 0], [0, 0, 1]]
+    case("xarray", "xarray.zarr", values[0] * .5 - 3, steps, (10, 40, 0), array="air")
+    case("xarray_time", "xarray.zarr", values[1] * .5 - 3, steps, (10, 40, 0), array="air", time=1)
+    floats = samples("<f4", (5, 4, 6))
+    floats[1] = -9999.25
+    marked = np.where(floats == -9999.25, np.nan, floats)
+    add("fill", floats, ["lat", "level", "lon"], fill=-9999.25)
+    bad("xarray_several", "xarray.zarr", "the arrays air, fill")
+    case("xarray_fill", "xarray.zarr", marked.transpose(1, 0, 2), steps, (10, 40, 0), array="fill")
+    # Version 3: xarray writes a float's fill value as base64 of a float64.
+    third = f"{FOLDER}/xarray3.zarr"
+    zarr3.write_group(third)
+    zarr3.write(third + "/lon", np.arange(6) * .5 + 10, (6,), dimension_names=["lon"],
+                attributes={"units": "degrees_east"})
+    zarr3.write(third + "/air", floats, (2, 2, 6), dimension_names=["lat", "level", "lon"],
+                attributes={"_FillValue": base64.b64encode(struct.pack("<d", -9999.25)).decode()})
+    case("xarray3", "xarray3.zarr", marked.transpose(1, 0, 2), [[.5, 0, 0], [0, 1, 0], [0, 0, 1]], (10, 0, 0))
+    # Integers with missing samples become floating-point numbers.
+    whole = values[0].copy()
+    add("whole", whole, ["level", "lat", "lon"], _FillValue=-999)
+    case("xarray_whole", "xarray.zarr", np.where(whole == -999, np.nan, whole), steps, (10, 40, 0), array="whole")
+
+
+def zip_cases():
+    def pack(name, source, inside="", method=zipfile.ZIP_STORED):
+        with zipfile.ZipFile(f"{FOLDER}/{name}.zip", "w", method) as archive:
+            if inside:
+                archive.writestr("__MACOSX/._a.zarr", b"of the Finder")
+            for folder, _, files in os.walk(f"{FOLDER}/{source}"):
+                for one in files:
+                    path = os.path.join(folder, one)
+                    archive.write(path, os.path.join(inside, os.path.relpath(path, f"{FOLDER}/{source}")))
+
+    for case_of in ("ome5", "codec_zlib_C", "3_shard_start", "group_told"):
+        of = next(one for one in CASES if one["name"] == case_of)
+        for name, how in (("zip", {}), ("deflated", {"method": zipfile.ZIP_DEFLATED}),
+                          ("inside", {"inside": "a.zarr"})):
+            pack(f"{case_of}_{name}", of["path"], **how)
+            CASES.append({**of, "name": f"{case_of}_{name}", "path": f"{case_of}_{name}.zip"})
+            os.link(f"{FOLDER}/{case_of}.values", f"{FOLDER}/{case_of}_{name}.values")
+    one = next(one for one in CASES if one["name"] == "ome5_array")
+    CASES.append({**one, "name": "zip_inside", "path": "./ome5.zarr/../ome5_zip.zip/1", "request": {}})
+    os.link(f"{FOLDER}/ome5_array.values", f"{FOLDER}/zip_inside.values")
+    with open(f"{FOLDER}/cut.zarr.zip", "wb") as out, open(f"{FOLDER}/ome5_zip.zip", "rb") as whole:
+        out.write(whole.read()[:-30])
+    bad("zip_cut", "cut.zarr.zip", "damaged or truncated ZIP")
+    with open(f"{FOLDER}/file.zarr", "wb") as out:
+        out.write(b"no folder")
+    bad("file", "file.zarr", "expected a folder or a ZIP archive")
 
 
 def hdf5_cases():
@@ -211,9 +404,9 @@ def hdf5_cases():
         layout = h5py.VirtualLayout(array.shape, array.dtype)
         layout[...] = h5py.VirtualSource(f"{FOLDER}/target.h5", "v", array.shape, array.dtype)
         file.create_virtual_dataset("v", layout)
-    for name, path in (("link", "linked.h5:/link"), ("soft", "linked.h5:/soft"), ("outer", "outer.h5:/v")):
-        case_elsewhere(f"h5_{name}", path, array)
-    bad("h5_virtual", "virtual.h5:/v", "no samples in it")  # virtual data sets are not read
+    for name, path in (("link", "linked.h5:/link"), ("soft", "linked.h5:/soft"), ("outer", "outer.h5:/v"),
+                       ("virtual", "virtual.h5:/v")):
+        case(f"h5_{name}", path, array)
 
 
 def slice_of(array, series, number, position, orientation, spacing, syntax=ExplicitVRLittleEndian, slope=None,
@@ -333,7 +526,12 @@ def dicom_cases():
 
 if __name__ == "__main__":
     zarr_cases()
+    zarr3_cases()
+    ome_cases()
+    xarray_cases()
+    zip_cases()
     hdf5_cases()
     dicom_cases()
+    kinds_of_dicom(sys.modules["__main__"])
     with open(FOLDER + "/cases.json", "w") as list_file:
         json.dump(CASES, list_file)

@@ -70,6 +70,22 @@ TEST_F(BrickedCopies, EqualPackedFiles) {
                      gzipped(some_bytes(4 * count))));
 }
 
+TEST_F(BrickedCopies, ListWhatTheirFilesHave) {
+    const std::string fields =
+        "type: uint8\ndimension: 5\nsizes: 3 70 67 2 5\nkinds: vector domain domain domain time\n"
+        "encoding: gzip\n";
+    const fs::path path = nrrd(fields, gzipped(some_bytes(3 * 70 * 67 * 2 * 5)));
+    write_bricked_copy(path, {});
+    VolumeContents contents;
+    VolumeUse use = in_files;  // the packed file itself would be refused
+    use.contents = &contents;
+    open_volume(path, {}, use);
+    EXPECT_EQ(contents.channels, std::vector<std::string>(3));
+    EXPECT_EQ(contents.times, std::vector<std::string>(5));
+    EXPECT_TRUE(contents.arrays.empty() && contents.levels.empty());
+    EXPECT_FALSE(contents.is_colour);
+}
+
 // Flips bits in all files of a copy, also in headers and hashes, and removes files.
 TEST_F(BrickedCopies, AreNeverDrawnDamaged) {
     const std::size_t count = 131 * 67 * 70;

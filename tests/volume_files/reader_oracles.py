@@ -4,7 +4,7 @@
 know, and to FOLDER/cases.json what each holds, by the tool itself. Exits with 77 where the tool is not installed.
 
 A case: {file, request, type, size [x, y, z], steps (three vectors), origin, cell, values}; `values` names a file of
-float64, x fastest: the values that are drawn.
+float64, x fastest: the values that are drawn. Or {file, request, error}: words of the message that refuses the file.
 """
 import importlib
 import sys

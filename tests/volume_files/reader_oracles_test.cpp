@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "support/expect_error.h"
 #include "support/heard_warnings.h"
 #include "support/temporary_folder.h"
 #include "volume_files/volume_file.h"
@@ -51,6 +52,9 @@ class ReaderOracles : public ::testing::TestWithParam<const char*> {
         EXPECT_EQ(Json(grid.size), one["size"]);
         if (one["lps"].is_boolean()) {
             EXPECT_EQ(grid.axes == WorldAxes::left_posterior_superior, one["lps"]);
+        }
+        if (one["unit"].is_string()) {
+            EXPECT_EQ(grid.unit, one["unit"]);
         }
         // Headers hold places in float32 or as text of 6 or more digits. Tolerances are 1e-6 of the
         // largest coordinate, 40, and of the longest step, 3.
@@ -108,6 +112,15 @@ TEST_P(ReaderOracles, AgreeWithWhatIsRead) {
     for (const Json& one : cases) {
         SCOPED_TRACE(one["file"].get<std::string>() + " " + one["request"].dump());
         warnings_.clear();
+        if (one.contains("error")) {
+            const std::string message = lamina::error_of([&] {
+                read_volume(folder / one["file"].get<std::string>(),
+                            oracle_request(one["request"]));
+            });
+            for (const Json& word : one["error"])
+                EXPECT_NE(message.find(word.get<std::string>()), std::string::npos) << message;
+            continue;
+        }
         try {
             const Volume volume = read_volume(folder / one["file"].get<std::string>(),
                                               oracle_request(one["request"]));

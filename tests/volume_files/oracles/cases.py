@@ -48,7 +48,7 @@ class Cases:
         return os.path.join(self.folder, name)
 
     def add(self, name, stored, steps=((1, 0, 0), (0, 1, 0), (0, 0, 1)), origin=(0, 0, 0), cell=False, drawn=None,
-            warnings=None, lps=None, **request):
+            warnings=None, lps=None, unit=None, **request):
         """`stored`: [z, y, x], as stored; `drawn`: the type where it does not follow from that."""
         kind = drawn or drawn_type(stored)
         values = stored.astype(np.float32) if kind == "float" else stored
@@ -57,7 +57,11 @@ class Cases:
         self.cases.append({
             "file": name, "request": request, "type": kind, "size": list(stored.shape[::-1]),
             "steps": np.asarray(steps, float).tolist(), "origin": np.asarray(origin, float).tolist(), "cell": cell,
-            "values": f"values{number}.raw", "warnings": warnings, "lps": lps})
+            "values": f"values{number}.raw", "warnings": warnings, "lps": lps, "unit": unit})
+
+    def refuse(self, name, *words, **request):
+        """The file is an error whose message has these words."""
+        self.cases.append({"file": name, "request": request, "error": words})
 
     def write(self):
         with open(self.path("cases.json"), "w", encoding="utf-8") as file:
