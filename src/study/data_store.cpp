@@ -260,6 +260,7 @@ std::string mesh_name(const Scene& scene) {
     if (const MeshFile* const file = scene.mesh_file()) {
         std::string name = file->path.string();
         if (file->time != 0) name += fmt::format(" {}", file->time);
+        if (file->join > 0) name += fmt::format(" join {}", file->join);
         return scene.scalar.empty() ? name : name + " " + scene.scalar;
     }
     const MeshSettings settings = mesh_settings(scene);

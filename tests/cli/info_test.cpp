@@ -141,6 +141,59 @@ TEST_F(Info, NaNIsNotCounted) {
     EXPECT_EQ(lamina_run({"info", folder / "g.nrrd", "--png", folder / "g.png"}).exit_code, 0);
 }
 
+TEST_F(Info, ListsWhatAFileHasAndShowsWhatIsChosen) {
+    // Three channels at two times; the sample x of channel c and time t is 100 t + 10 c + x.
+    write_bytes_to(
+        folder / "c.nrrd",
+        "NRRD0004\ntype: uint8\ndimension: 5\nsizes: 3 2 1 1 2\nkinds: vector domain "
+        "domain domain time\nencoding: ascii\n\n0 10 20 1 11 21 100 110 120 101 111 121\n");
+    const json found = info("c.nrrd");
+    EXPECT_EQ(found["channels"], json({"", "", ""}));
+    EXPECT_EQ(found["times"], json({"", ""}));
+    EXPECT_EQ(found["arrays"], json::array());
+    EXPECT_EQ(found["levels"], json::array());
+    EXPECT_EQ(found["colour"], false);
+    EXPECT_EQ(found["range"], json({0, 1}));
+    const std::string shown = text("c.nrrd");
+    EXPECT_NE(shown.find("channels          0, 1, 2 (choose by --set volume.channel=NUMBER)\n"),
+              std::string::npos)
+        << shown;
+    EXPECT_NE(shown.find("times             0, 1 (choose by --set volume.time=NUMBER)\n"),
+              std::string::npos)
+        << shown;
+    for (const char* none : {"arrays", "levels", "colour"})
+        EXPECT_EQ(shown.find(none), std::string::npos) << shown;
+    const ProgramResult chosen = lamina_run({"info", folder / "c.nrrd", "--json", "--set",
+                                             "volume.channel=2", "--set", "volume.time=1"});
+    ASSERT_EQ(chosen.exit_code, 0) << chosen.err;
+    EXPECT_EQ(json::parse(chosen.out)["range"], json({120, 121}));
+    EXPECT_EQ(json::parse(chosen.out)["channels"].size(), 3u);
+    EXPECT_EQ(chosen.err, "");
+    // One part is no choice.
+    EXPECT_EQ(text("a.nrrd").find("channels"), std::string::npos);
+}
+
+TEST_F(Info, RefusesSettingsThatChooseNoPart) {
+    const auto exit_code = [&](const char* setting) {
+        return lamina_run({"info", folder / "a.nrrd", "--set", setting}).exit_code;
+    };
+    for (const char* setting : {"image.width=3", "volume.path=b.nrrd", "volume", "volume.chanel=1",
+                                "mesh.time=1", "volume.channel=x"})
+        EXPECT_EQ(exit_code(setting), 2) << setting;
+    EXPECT_EQ(exit_code("volume.channel=1"), 1);  // the file has none
+}
+
+TEST_F(Info, SaysThatAFolderIsOne) {
+    write_bytes_to(folder / "letter.txt", "text");
+    const ProgramResult result = lamina_run({"info", folder.path()});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("found a folder with unknown kinds (letter.txt), NRRD (a.nrrd), "
+                              "expected the name of one of these\n"),
+              std::string::npos)
+        << result.err;
+    EXPECT_EQ(lamina_run({"render", folder.path(), "-o", folder / "p.png"}).err, result.err);
+}
+
 // The picture has slices and a histogram. z, the longest axis with a length of 8, has 256 pixels.
 TEST_F(Info, PictureHasTheAspectOfTheWorld) {
     ASSERT_EQ(lamina_run({"info", folder / "a.nrrd", "--png", folder / "a.png"}).exit_code, 0);

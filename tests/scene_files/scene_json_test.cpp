@@ -40,7 +40,7 @@ TEST(SceneJson, KeepsTheScenesThatShip) {
 TEST(SceneJson, KeepsEveryKey) {
     const std::vector<std::pair<std::string, nlohmann::json>> keys{
         {"/nan", "transparent"},
-        {"/mesh", {{"path", "/meshes/m.pvd"}, {"time", 3}}},
+        {"/mesh", {{"path", "/meshes/m.pvd"}, {"time", 3}, {"join", 1e-9}}},
         {"/mesh", {{"tolerance", .1 + .2}, {"max_tets", 77}, {"kuhn", true}}},
         {"/transfer_function/interpolation", "nearest"},
         {"/transfer_function/points/0", {{"value", 0}, {"opacity", 1}}},

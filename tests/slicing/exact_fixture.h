@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <string>
 
 #include "slicing_fixture.h"
 #include "support/volume_of.h"
@@ -106,5 +107,21 @@ struct NamedFunction {
 };
 inline constexpr NamedFunction functions[] = {
     {"peak", peak}, {"many points", many_points}, {"steps", steps}};
+
+// Calls check(scene, name) for exact scenes of all functions, in both projections, from outside and
+// inside. Extinction jumps by less than .2 a cell: 4 over some 20 cells.
+inline void for_each_exact_scene(
+    const Volume& volume, const std::function<void(Scene&, const std::string& name)>& check) {
+    for (const NamedFunction& function : functions) {
+        for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+            Scene scene = exact_scene(in_view_of(volume, 4, function.make), projection);
+            for (const double distance : {1.2, .1}) {
+                lamina::look_from(volume, {.4, -.7, .9}, distance, scene);
+                check(scene, std::string(function.name) + " " + name_of(projection) + " " +
+                                 std::to_string(distance));
+            }
+        }
+    }
+}
 
 }  // namespace lamina

@@ -91,7 +91,7 @@ std::vector<SlicePlan> every_segment_plan() {
             plans.back().clip.resize(1);
         }
     }
-    for (int bits = 0; bits < 32; ++bits) {
+    for (int bits = 0; bits < 64; ++bits) {
         SlicePlan plan;
         plan.classification = Classification::exact;
         plan.orthographic = (bits & 1) != 0;
@@ -99,6 +99,7 @@ std::vector<SlicePlan> every_segment_plan() {
         plan.nan_transparent = (bits & 4) != 0;
         plan.float_texture = (bits & 8) != 0;
         plan.precise_rays = (bits & 16) != 0;
+        plan.nearest = (bits & 32) != 0;
         plans.push_back(plan);
     }
     add_lit_plans(plans);

@@ -36,29 +36,35 @@ std::string row_end(const std::vector<double>& edges, std::size_t number) {
 
 constexpr int panel_side = 480;  // pixels
 
-Json describe(std::span<const MeshScalar> scalars) {
+// `mesh`: counts the faces at which scalars of points jump; null: scalars of cells.
+Json describe(std::span<const MeshScalar> scalars, const TetMesh* mesh) {
     Json list = Json::array();
     for (const MeshScalar& scalar : scalars) {
         const auto [range, non_finite] = measure_range(scalar.values);
         Json entry{{"name", scalar.name}, {"range", nullptr}};  // null: no finite value
         if (!range.empty()) entry["range"] = Json::array({range.lo, range.hi});
         entry["nan_count"] = non_finite;
+        if (mesh != nullptr) entry["jumps"] = count_jumps(*mesh, scalar.values);
         list.push_back(entry);
     }
     return list;
 }
 
-Json describe(const TetMesh& mesh, const ValueStatistics& statistics) {
+// `drawn`: the scalar that the statistics and the picture show, or null.
+Json describe(const TetMesh& mesh, const MeshScalar* drawn, const ValueStatistics& statistics) {
     const MeshFindings& findings = mesh.findings();
     const double ratio = edge_lengths(mesh).ratio();
     Json info;
     info["kind"] = "mesh";
     info["points"] = mesh.points().size();
+    info["places"] = std::ssize(mesh.points()) - findings.copies;
     info["tets"] = findings.tets_read;
     info["bounds"] = {{"min", json_vector(mesh.bounds().min)},
                       {"max", json_vector(mesh.bounds().max)}};
-    info["scalars"] = describe(mesh.point_scalars());
-    info["cell_scalars"] = describe(mesh.cell_scalars());
+    info["scalars"] = describe(mesh.point_scalars(), &mesh);
+    info["cell_scalars"] = describe(mesh.cell_scalars(), nullptr);
+    info["drawn_scalar"] = nullptr;  // null: none, or a scene must choose an array of cell data
+    if (drawn != nullptr) info["drawn_scalar"] = drawn->name;
     info["boundary_faces"] = findings.boundary_faces;
     info["conforming"] = findings.conforming();
     info["degenerate"] = findings.degenerate;
@@ -73,20 +79,26 @@ Json describe(const TetMesh& mesh, const ValueStatistics& statistics) {
     info["split_cells"] = findings.cells.split;
     info["skipped_cells"] = findings.cells.skipped;
     info["straightened_cells"] = findings.cells.straightened;
+    info["turned_over_tets"] = findings.cells.turned_over;
+    info["not_star_shaped_cells"] = findings.cells.not_star_shaped;
+    info["made_points"] = findings.cells.made_points;
     info["ghost_cells"] = findings.cells.ghosts;
     info["merged_points"] = findings.cells.merged_points;
     add_statistics(statistics, info);
     return info;
 }
 
-// Returns the values of the first scalar at points, or nothing if the mesh has none.
-std::span<const double> first_scalar(const TetMesh& mesh) {
-    if (mesh.point_scalars().empty()) return {};
-    return mesh.point_scalars().front().values;
+// Returns the scalar that is drawn if a scene names none: the first at points, or the only array of
+// cell data, averaged to points.
+std::optional<MeshScalar> default_scalar(const MeshData& data) {
+    if (!data.point_scalars.empty()) return data.point_scalars.front();
+    if (const MeshScalar* const cells = only_array(data.cell_scalars))
+        return average_to_points(data.points.size(), data.tets, *cells, data.cell_of_tet);
+    return std::nullopt;
 }
 
-CodedImage picture_of(const TetMesh& mesh, const ValueStatistics& statistics) {
-    const std::span<const double> values = first_scalar(mesh);
+CodedImage picture_of(const TetMesh& mesh, std::span<const double> values,
+                      const ValueStatistics& statistics) {
     const ValueRange range = values.empty() ? ValueRange{0, 0} : measure_range(values).range;
     return above_one_another(mesh_picture(mesh, values, range, panel_side),
                              [&](int width) { return histogram_picture(statistics, width); });
@@ -99,7 +111,8 @@ Json json_of(const std::array<Centering, 3>& centering) {
     return Json::array({word(centering[0]), word(centering[1]), word(centering[2])});
 }
 
-Json describe(const Volume& volume, const MinMaxBricks& bricks, const ValueStatistics& statistics) {
+Json describe(const Volume& volume, const VolumeContents& contents, const MinMaxBricks& bricks,
+              const ValueStatistics& statistics) {
     const Grid& grid = volume.grid();
     const Grid::Bounds bounds = grid.bounds();
     Json info;
@@ -116,8 +129,22 @@ Json describe(const Volume& volume, const MinMaxBricks& bricks, const ValueStati
     info["origin"] = json_vector(grid.origin);  // centre of the first sample
     info["unit"] = nullptr;                     // null: the file names none
     if (!grid.unit.empty()) info["unit"] = grid.unit;
+    info["arrays"] = contents.arrays;
+    info["channels"] = contents.channels;
+    info["times"] = contents.times;
+    info["levels"] = contents.levels;
+    info["colour"] = contents.is_colour;
     add_statistics(statistics, info);
     return info;
+}
+
+// Returns the entry of a list as people read it: "1", "1 DAPI", "2 512x512x64".
+std::string entry_text(std::size_t number, const Json& entry) {
+    if (entry.is_array())
+        return fmt::format("{} {}x{}x{}", number, entry[0].dump(), entry[1].dump(),
+                           entry[2].dump());
+    const auto name = printable(entry.get<std::string>());
+    return name.empty() ? std::to_string(number) : fmt::format("{} {}", number, name);
 }
 
 CodedImage picture_of(const Volume& volume, const ValueRange& range,
@@ -151,6 +178,22 @@ std::string percentiles_text(const Json& percentiles) {
                             number_text(value.get<double>(), fineness, 6));
     }
     return text;
+}
+
+std::string choice_text(const std::string& key, const Json& list, const std::string& kind) {
+    constexpr std::size_t most_entries = 16;
+    if (list.size() < 2) return {};
+    std::string text;
+    for (std::size_t i = 0; i < std::min(list.size(), most_entries); ++i) {
+        text += i == 0 ? "" : ", ";
+        if (key != "arrays")
+            text += entry_text(i, list[i]);
+        else
+            text += list[i] == "" ? "\"\"" : printable(list[i].get<std::string>());
+    }
+    if (list.size() > most_entries) text += fmt::format(", ... {} in all", list.size());
+    return fmt::format("{} (choose by --set {}.{}={})", text, kind, key.substr(0, key.size() - 1),
+                       key == "arrays" ? "NAME" : "NUMBER");
 }
 
 std::string histogram_text(const Json& histogram) {
@@ -191,30 +234,40 @@ CodedImage above_one_another(const CodedImage& above, const std::function<CodedI
     return image;
 }
 
-nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string& png) {
+nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string& png,
+                                      std::int64_t time) {
     std::optional<AtomicFile> picture;  // opened first: an unwritable path fails at once
     if (!png.empty()) picture.emplace(png);
-    const TetMesh mesh(read_mesh(file), file);
-    const ValueStatistics statistics = measure_values(first_scalar(mesh));
+    MeshData data = read_mesh(file, time);
+    const std::optional<MeshScalar> drawn = default_scalar(data);
+    const std::span<const double> values = drawn ? drawn->values : std::span<const double>();
+    const TetMesh mesh(std::move(data), file);
+    const ValueStatistics statistics = measure_values(values);
     if (picture) {
-        write_png(*picture, picture_of(mesh, statistics));
+        write_png(*picture, picture_of(mesh, values, statistics));
         picture->commit();
     }
-    return describe(mesh, statistics);
+    Json info = describe(mesh, drawn ? &*drawn : nullptr, statistics);
+    info["times"] = Json::array();
+    for (const double step_time : times_of_mesh(file))
+        info["times"].push_back(fmt::format("{}", step_time));
+    return info;
 }
 
 nlohmann::ordered_json report_on_volume(const std::string& file, const std::string& png,
                                         const VolumeRequest& request) {
     std::optional<AtomicFile> picture;  // opened first: an unwritable path fails at once
     if (!png.empty()) picture.emplace(png);
-    const VolumeData data(open_volume(file, request, {.residence = VolumeUse::Residence::as_fits}));
+    VolumeContents contents;
+    const VolumeData data(open_volume(
+        file, request, {.residence = VolumeUse::Residence::as_fits, .contents = &contents}));
     const auto& [volume, bricks, values] = data;
     const ValueStatistics statistics = measure_values(data);
     if (picture) {
         write_png(*picture, picture_of(volume, bricks.whole, statistics));
         picture->commit();
     }
-    return describe(volume, bricks, statistics);
+    return describe(volume, contents, bricks, statistics);
 }
 
 }  // namespace lamina

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
@@ -29,10 +30,16 @@ std::string histogram_text(const nlohmann::ordered_json& histogram);
 // at least 480 pixels.
 CodedImage above_one_another(const CodedImage& above, const std::function<CodedImage(int)>& below);
 
-// Reports of `lamina info FILE` (docs/meshes.md), and the picture that it writes to `png` unless
+// Returns the row of a table for the lists "arrays", "channels", "times" and "levels" of a report:
+// what there is to choose from, and how. Empty if there is nothing to choose.
+std::string choice_text(const std::string& key, const nlohmann::ordered_json& list,
+                        const std::string& kind);
+
+// Reports of `lamina info FILE` (docs/info.md), and the picture that it writes to `png` unless
 // that is empty. Throw Error.
 nlohmann::ordered_json report_on_volume(const std::string& file, const std::string& png,
                                         const VolumeRequest& request);
-nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string& png);
+nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string& png,
+                                      std::int64_t time);
 
 }  // namespace lamina

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -73,11 +74,14 @@ struct Input {
 Input load(const std::string& file) {
     const FileKind kind = kind_of_file(file);
     if (kind == FileKind::mesh) return {TetMesh(read_mesh(file), file), {}};
-    if (kind == FileKind::volume)
+    if (kind == FileKind::volume) {
+        std::error_code unknown;
+        if (!std::filesystem::exists(file, unknown)) fail("{}: no such file", file);
         fail(
             "{}: is a volume, expected a mesh (.vtu, .pvtu, .pvd, .vtk, .node, .ele) or a scene "
             "(JSON)",
             file);
+    }
     Scene scene = load_scene(file);
     if (!scene.has_mesh()) fail("{}: has no \"mesh\", whose tets could be put in order", file);
     scene.method = Method::project;

@@ -174,10 +174,11 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
     document = piped ? load_json_from_stdin() : scene_document(file, request);
     std::vector<std::string> keys;
     const auto apply = [&](const std::string& key, const std::string& value) {
-        // A volume is an object in JSON if it has other settings than its path.
-        const bool of_volume = key.starts_with("volume.") && document.contains("volume");
-        if (of_volume && document["volume"].is_string())
-            document["volume"] = {{"path", document["volume"]}};
+        // A volume or a mesh is an object in JSON if it has other settings than its path.
+        const char* const source = key.starts_with("volume.") ? "volume" : "mesh";
+        const bool chooses = key.starts_with("volume.") || key == "mesh.time";
+        if (chooses && document.contains(source) && document[source].is_string())
+            document[source] = {{"path", document[source]}};
         set_key(document, key, value);
         keys.push_back(key);
     };
