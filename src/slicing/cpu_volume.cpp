@@ -164,7 +164,8 @@ void CpuVolume::copy_brick(const TextureBrick& part, CpuBrick& brick) {
 bool CpuVolume::can_replace(const Volume& volume, const ValueRange& range,
                             const SlicePlan& plan) const {
     return volume.shares_samples(volume_) && range == range_ && plan.bricks == parts_ &&
-           plan.float_texture == float_texture_ && plan.lighting.has_value() == lit_;
+           plan.float_texture == float_texture_ && plan.lighting.has_value() == lit_ &&
+           plan.nearest == bricks_.front().nearest;
 }
 
 std::int64_t CpuVolume::byte_count() const {

@@ -6,6 +6,7 @@
 
 #include "engine_fixture.h"
 #include "exact_fixture.h"
+#include "slicing/cpu_volume.h"
 #include "support/stored_volume.h"
 
 namespace lamina {
@@ -124,6 +125,18 @@ TEST_P(NearestLookup, BricksAndEmptyRegionsMeetTheTracer) {
     if (is_native()) {
         EXPECT_LE(linf(draw(test::stored(volume), scene), reference), promised);
     }
+}
+
+// The copy of the samples knows if its cells are voxels.
+TEST(CpuVolume, IsNotReusedForAnotherLookup) {
+    const Volume volume = labels_along_x(Centering::cell);
+    SlicePlan plan;
+    plan.bricks = {TextureBrick{{0, 0, 0}, volume.grid().size}};
+    plan.nearest = true;
+    const CpuVolume voxels(volume, {0, 32}, plan);
+    EXPECT_TRUE(voxels.can_replace(volume, {0, 32}, plan));
+    plan.nearest = false;
+    EXPECT_FALSE(voxels.can_replace(volume, {0, 32}, plan));
 }
 
 }  // namespace
