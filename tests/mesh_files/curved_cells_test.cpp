@@ -86,9 +86,7 @@ void expect_as(const Expected& expected, MeshData mesh) {
 }
 
 TEST_F(CurvedCells, AreCutAsVtkSaysInEveryFormat) {
-    const std::string script = std::string(LAMINA_SOURCE_DIR) + "/tests/mesh_files/curved_cells.py";
-    const int status =
-        std::system(("/usr/bin/python3 '" + script + "' '" + folder().string() + "'").c_str());
+    const int status = run_script("curved_cells.py");
     if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "python3-vtk9 is not installed";
     ASSERT_EQ(status, 0);
     int files = 0;

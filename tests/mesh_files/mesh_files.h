@@ -2,6 +2,7 @@
 // The fixture and helpers of the tests of mesh files.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,6 +29,13 @@ class MeshFiles : public ::testing::Test {
         return read_mesh(write(name, bytes));
     }
     const std::filesystem::path& folder() const { return folder_.path(); }
+    // Runs a script of tests/mesh_files, which writes to folder(). Returns its wait status; exit
+    // code 77: the libraries that it needs are not installed.
+    int run_script(const std::string& name) const {
+        return std::system(fmt::format("/usr/bin/python3 '{}/tests/mesh_files/{}' '{}'",
+                                       LAMINA_SOURCE_DIR, name, folder().string())
+                               .c_str());
+    }
 
   private:
     TemporaryFolder folder_;

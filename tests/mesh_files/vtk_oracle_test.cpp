@@ -68,9 +68,7 @@ TEST_F(VtkOracle, AgreesOnReadAndWrittenFiles) {
     AtomicFile file(folder() / "ours.vtu");
     write_vtu(file, ours);
     file.commit();
-    const std::string script = std::string(LAMINA_SOURCE_DIR) + "/tests/mesh_files/vtk_oracle.py";
-    const int status =
-        std::system(("/usr/bin/python3 '" + script + "' '" + folder().string() + "'").c_str());
+    const int status = run_script("vtk_oracle.py");
     if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "python3-vtk9 is not installed";
     ASSERT_EQ(status, 0);
 

@@ -38,9 +38,7 @@ double volume_of(const MeshData& mesh) {
 }
 
 TEST_F(VtkPieces, MakeTheWholeMesh) {
-    const std::string script = std::string(LAMINA_SOURCE_DIR) + "/tests/mesh_files/vtk_pieces.py";
-    const int status =
-        std::system(("/usr/bin/python3 '" + script + "' '" + folder().string() + "'").c_str());
+    const int status = run_script("vtk_pieces.py");
     if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "python3-vtk9 is not installed";
     ASSERT_EQ(status, 0);
 

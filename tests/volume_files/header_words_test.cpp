@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What headers of NIfTI, NRRD and MetaImage say about units, scales, times, colours and labels is
-// used, told, or refused.
+// Units, scales, times, colours and labels in headers of NIfTI, NRRD and MetaImage are used, told
+// or refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "corpus_files.h"
 #include "nrrd_files.h"
 #include "support/expect_error.h"
 #include "support/heard_warnings.h"
@@ -13,14 +14,13 @@
 namespace lamina {
 namespace {
 
+using testing::corpus_file;
+using testing::with_number;
+
 using Words = std::vector<std::string>;
 
 class HeaderWords : public testing::NrrdFiles {
   protected:
-    static std::string good(const std::string& name) {
-        return read_bytes_of(std::string(LAMINA_SOURCE_DIR) + "/tests/fuzz/corpus/" + name);
-    }
-
     VolumeContents contents_of(const std::filesystem::path& path) {
         VolumeContents contents;
         VolumeUse use;
@@ -38,33 +38,27 @@ class HeaderWords : public testing::NrrdFiles {
     test::HeardWarnings heard_;
 };
 
-template <typename T>
-std::string nifti_with(std::string bytes, std::size_t offset, T value) {
-    std::memcpy(bytes.data() + offset, &value, sizeof value);
-    return bytes;
-}
-
 TEST_F(HeaderWords, OfNiftiNameUnitsAndTimes) {
-    const std::string times = good("nifti/times.nii");
+    const std::string times = corpus_file("nifti/times.nii");
     constexpr std::size_t units = 123, step = 76 + 4 * 4, first = 136;  // nifti1.h
     // NIFTI_UNITS_MM + NIFTI_UNITS_MSEC
-    std::string text = nifti_with(times, units, std::uint8_t{2 + 16});
-    text = nifti_with(nifti_with(text, step, 2.5F), first, 10.F);
+    std::string text = with_number(times, units, std::uint8_t{2 + 16});
+    text = with_number(with_number(text, step, 2.5F), first, 10.F);
     const auto path = write("a.nii", text);
     EXPECT_EQ(read_volume(path).grid().unit, "mm");
     EXPECT_EQ(contents_of(path).times, (Words{"10 ms", "12.5 ms"}));
     EXPECT_FALSE(contents_of(path).is_colour);
-    const auto metres = write("b.nii", nifti_with(times, units, std::uint8_t{1}));
+    const auto metres = write("b.nii", with_number(times, units, std::uint8_t{1}));
     EXPECT_EQ(read_volume(metres).grid().unit, "m");
     EXPECT_EQ(contents_of(metres).times, (Words{"", ""}));
-    const auto none = write("c.nii", nifti_with(times, units, std::uint8_t{0}));
+    const auto none = write("c.nii", with_number(times, units, std::uint8_t{0}));
     EXPECT_EQ(read_volume(none).grid().unit, "");
 }
 
 TEST_F(HeaderWords, OfNiftiScaleOnlyIfTheyAreNumbers) {
-    const std::string one = good("nifti/one.nii");
+    const std::string one = corpus_file("nifti/one.nii");
     const auto scaled = [&](float slope, float shift) {
-        return write("a.nii", nifti_with(nifti_with(one, 112, slope), 116, shift));
+        return write("a.nii", with_number(with_number(one, 112, slope), 116, shift));
     };
     const auto plain = testing::samples_of<std::int16_t>(read_volume(scaled(1, 0)));
     EXPECT_EQ(testing::samples_of<std::int16_t>(read_volume(scaled(NAN, NAN))), plain);
@@ -77,14 +71,14 @@ TEST_F(HeaderWords, OfNiftiScaleOnlyIfTheyAreNumbers) {
 }
 
 TEST_F(HeaderWords, OfNiftiNameOtherKindsOfFiles) {
-    const std::string one = good("nifti/one.nii");
-    expect_error([&] { read_volume(write("a.nii", nifti_with(one, 68, std::int16_t{3006}))); },
+    const std::string one = corpus_file("nifti/one.nii");
+    expect_error([&] { read_volume(write("a.nii", with_number(one, 68, std::int16_t{3006}))); },
                  {"a.nii: intent_code: found 3006, a CIFTI file"});
-    expect_error([&] { read_volume(write("a.hdr", nifti_with(one, 344, std::int32_t{0}))); },
+    expect_error([&] { read_volume(write("a.hdr", with_number(one, 344, std::int32_t{0}))); },
                  {"a.hdr: found an ANALYZE 7.5 header", "fslchfiletype"});
     // quatern_b of 2, with a qform and no sform.
-    std::string turned = nifti_with(nifti_with(one, 252, std::int16_t{1}), 254, std::int16_t{0});
-    turned = nifti_with(turned, 256, 2.F);
+    std::string turned = with_number(with_number(one, 252, std::int16_t{1}), 254, std::int16_t{0});
+    turned = with_number(turned, 256, 2.F);
     expect_error([&] { read_volume(write("a.nii", turned)); }, {"a.nii: quatern_b", "at most 1"});
 }
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
+#include "corpus_files.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 #include "volume_files/volume_file.h"
@@ -14,12 +14,11 @@
 namespace lamina {
 namespace {
 
+using testing::corpus_file;
+using testing::with_number;
+
 class VolumeErrors : public ::testing::Test {
   protected:
-    static std::string good(const std::string& name) {
-        return read_bytes_of(std::string(LAMINA_SOURCE_DIR) + "/tests/fuzz/corpus/" + name);
-    }
-
     std::filesystem::path write(const std::string& name, const std::string& bytes) {
         write_bytes_to(folder_ / name, bytes);
         return folder_ / name;
@@ -43,18 +42,12 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text.replace(at, what.size(), by);
 }
 
-template <typename T>
-std::string with(std::string bytes, std::size_t offset, T value) {
-    std::memcpy(bytes.data() + offset, &value, sizeof value);
-    return bytes;
-}
-
 TEST_F(VolumeErrors, NameMistakesInMetaImage) {
-    const std::string local = good("metaimage/local.mha");
+    const std::string local = corpus_file("metaimage/local.mha");
     EXPECT_EQ(read_volume(write("a.mha", local)).grid().size,
               (std::array<std::int64_t, 3>{4, 3, 2}));
     expect("a.mha", local.substr(0, local.size() - 1), {"(48 bytes)", "holds 47 bytes"});
-    expect("a.mha", good("metaimage/huge.mha"), {"1000000 x 1000000 x 1000000", "48 bytes"});
+    expect("a.mha", corpus_file("metaimage/huge.mha"), {"1000000 x 1000000 x 1000000", "48 bytes"});
     expect("a.mha", replaced(local, "NDims = 3", "NDims = 2"), {"NDims: found '2'", "from 3 to 4"});
     expect("a.mha", replaced(local, "4 3 2", "4 3"), {"DimSize: found '4 3'", "3 whole numbers"});
     expect("a.mha", replaced(local, "MET_SHORT", "MET_STRING"), {"ElementType", "'MET_STRING'"});
@@ -64,58 +57,59 @@ TEST_F(VolumeErrors, NameMistakesInMetaImage) {
     expect("a.mha", replaced(local, "0 0 0 1\nOffset", "0 nan 1\nOffset"), {"TransformMatrix"});
     expect("a.mha", replaced(local, "Offset = 0", "Offset = inf"), {"Offset", "finite"});
     expect("a.mha", replaced(local, "ElementDataFile = LOCAL", "Nothing = LOCAL"), {"a.mha"});
-    expect("a.mhd", good("metaimage/many_files.mhd"), {"at most 100000 files"});
-    expect("a.mhd", good("metaimage/apart.mhd"), {"data: ElementDataFile of", "no such file"});
-    const std::string packed = good("metaimage/zlib.mha");
+    expect("a.mhd", corpus_file("metaimage/many_files.mhd"), {"at most 100000 files"});
+    expect("a.mhd", corpus_file("metaimage/apart.mhd"),
+           {"data: ElementDataFile of", "no such file"});
+    const std::string packed = corpus_file("metaimage/zlib.mha");
     expect("a.mha", packed.substr(0, packed.size() - 3), {"truncated gzip data"});
     expect("a.mha", "ObjectType = Image\nNDims\n", {"line 2", "'NDims'", "'Key = value'"});
 }
 
 TEST_F(VolumeErrors, NameMistakesInNifti) {
-    const std::string one = good("nifti/one.nii");
+    const std::string one = corpus_file("nifti/one.nii");
     EXPECT_EQ(read_volume(write("a.nii", one)).grid().size, (std::array<std::int64_t, 3>{4, 3, 2}));
     expect("a.nii", one.substr(0, one.size() - 1), {"holds 47 bytes"});
     expect("a.nii", one.substr(0, 200), {"truncated NIfTI header: found 200 bytes, expected 348"});
-    expect("a.nii", good("nifti/huge.nii"), {"promises 32767 x 32767 x 32767"});
-    expect("a.nii", with(one, 40, std::int16_t{2}), {"dim[0]: found 2"});
-    expect("a.nii", with(one, 44, std::int16_t{-5}), {"dim[2]: found -5"});
-    expect("a.nii", with(one, 70, std::int16_t{32}), {"datatype: found 32"});
-    expect("a.nii", with(one, 108, 12.F), {"vox_offset: found 12, expected at least 348"});
-    expect("a.nii", good("nifti/far_offset.nii"), {"vox_offset"});
-    expect("a.nii", with(one, 284, 1.F), {"sform", "axes 0 and 1 meet at"});
-    expect("a.nii", with(one, 296, std::nanf("")), {"a.nii: axis 0", "nan"});
-    const std::string packed = good("nifti/packed.nii.gz");
+    expect("a.nii", corpus_file("nifti/huge.nii"), {"promises 32767 x 32767 x 32767"});
+    expect("a.nii", with_number(one, 40, std::int16_t{2}), {"dim[0]: found 2"});
+    expect("a.nii", with_number(one, 44, std::int16_t{-5}), {"dim[2]: found -5"});
+    expect("a.nii", with_number(one, 70, std::int16_t{32}), {"datatype: found 32"});
+    expect("a.nii", with_number(one, 108, 12.F), {"vox_offset: found 12, expected at least 348"});
+    expect("a.nii", corpus_file("nifti/far_offset.nii"), {"vox_offset"});
+    expect("a.nii", with_number(one, 284, 1.F), {"sform", "axes 0 and 1 meet at"});
+    expect("a.nii", with_number(one, 296, std::nanf("")), {"a.nii: axis 0", "nan"});
+    const std::string packed = corpus_file("nifti/packed.nii.gz");
     expect("a.nii.gz", packed.substr(0, 20), {"truncated gzip data"});
     expect("a.nii.gz", packed.substr(0, packed.size() - 2), {"truncated gzip data"});
     expect("a.nii", "nothing at all", {"no NIfTI header"});
-    std::string pair = good("nifti/pair.hdr");
+    std::string pair = corpus_file("nifti/pair.hdr");
     pair.resize(348);
     expect("a.hdr", pair, {"a.img: data file of", "no such file"});
     VolumeRequest request;
     request.time = 2;
-    expect("a.nii", good("nifti/times.nii"), {"time: found 2", "from 0 to 1", "the file has 2"},
-           request);
+    expect("a.nii", corpus_file("nifti/times.nii"),
+           {"time: found 2", "from 0 to 1", "the file has 2"}, request);
     request = {};
     request.level = 1;
     expect("a.nii", one, {"level: expected no such key: NIfTI files hold only one"}, request);
 }
 
 TEST_F(VolumeErrors, NameMistakesInNumpy) {
-    const std::string good_one = good("npy_volume/i2.npy");
+    const std::string good_one = corpus_file("npy_volume/i2.npy");
     EXPECT_EQ(read_volume(write("a.npy", good_one)).grid().size,
               (std::array<std::int64_t, 3>{4, 3, 2}));
     expect("a.npy", good_one.substr(0, good_one.size() - 1), {"holds 47 bytes"});
     expect("a.npy", good_one.substr(0, 40), {"ends too early"});
-    expect("a.npy", good("npy_volume/two_axes.npy"), {"'shape': found (3, 4)", "(z, y, x)"});
-    expect("a.npy", good("npy_volume/huge.npy"), {"more than any file holds"});
+    expect("a.npy", corpus_file("npy_volume/two_axes.npy"), {"'shape': found (3, 4)", "(z, y, x)"});
+    expect("a.npy", corpus_file("npy_volume/huge.npy"), {"more than any file holds"});
     expect("a.npy", replaced(good_one, "<i2", "<c8"), {"'descr': found '<c8'", "such as '<f4'"});
     expect("a.npy", replaced(good_one, "<i2", "=i2"), {"'descr': found '=i2'"});
 }
 
 TEST_F(VolumeErrors, NameMistakesInVtkImageData) {
-    const std::string text = good("vti/int16_ascii_none.vti");
+    const std::string text = corpus_file("vti/int16_ascii_none.vti");
     read_volume(write("a.vti", text));
-    expect("a.vti", good("vti/huge.vti"), {"a.vti"});
+    expect("a.vti", corpus_file("vti/huge.vti"), {"a.vti"});
     expect("a.vti", replaced(text, "WholeExtent=\"0 5", "WholeExtent=\"5 0"),
            {"WholeExtent: found '5 0 0 4 0 3'"});
     expect("a.vti", replaced(text, "Spacing=\"0.5", "Spacing=\"0"), {"axis 0", "distance of 0"});
@@ -124,7 +118,7 @@ TEST_F(VolumeErrors, NameMistakesInVtkImageData) {
     VolumeRequest request;
     request.array = "w";
     expect("a.vti", text, {"array: found \"w\", expected one of \"v\""}, request);
-    const std::string pieces = good("vti/pieces.vti");
+    const std::string pieces = corpus_file("vti/pieces.vti");
     read_volume(write("a.vti", pieces));
     expect("a.vti", replaced(pieces, "Extent=\"2 4", "Extent=\"1 3"), {"have 24 of 30 samples"});
     expect("a.vti", replaced(pieces, "Extent=\"2 4", "Extent=\"2 3"), {"a.vti"});
@@ -132,20 +126,20 @@ TEST_F(VolumeErrors, NameMistakesInVtkImageData) {
 }
 
 TEST_F(VolumeErrors, NameMistakesInTiff) {
-    const std::string strips = good("tiff/strips.tif");
+    const std::string strips = corpus_file("tiff/strips.tif");
     EXPECT_EQ(read_volume(write("a.tif", strips)).grid().size,
               (std::array<std::int64_t, 3>{18, 20, 3}));
     expect("a.tif", strips.substr(0, 300), {"a.tif: page 2: Can not read TIFF directory"});
     expect("a.tif", strips.substr(0, 6), {"page 1"});
-    expect("a.tif", replaced(good("tiff/imagej.tif"), "frames=3", "frames=4"),
+    expect("a.tif", replaced(corpus_file("tiff/imagej.tif"), "frames=3", "frames=4"),
            {"found 6 pages, ImageJ's description has", "4 times"});
     std::filesystem::create_directory(folder_ / "stack");
-    expect("a.tif", good("tiff/huge_page.tif"),
+    expect("a.tif", corpus_file("tiff/huge_page.tif"),
            {"a.tif: pages: found 1 of 150994962 x 10 pixels of 513 samples (774604155060 bytes)"});
     write("stack/1.tif", strips);
-    write("stack/2.tif", good("tiff/tiles.tif"));
+    write("stack/2.tif", corpus_file("tiff/tiles.tif"));
     EXPECT_EQ(read_volume(folder_ / "stack").grid().size[2], 5);
-    write("stack/3.tif", good("tiff/rgb.tif"));
+    write("stack/3.tif", corpus_file("tiff/rgb.tif"));
     expect_error([&] { read_volume(folder_ / "stack"); },
                  {"3.tif: page 1: found 6 x 10 pixels of 3 uint8 samples, expected 18 x 20 of 1"});
     std::filesystem::create_directory(folder_ / "empty");
