@@ -114,10 +114,6 @@ std::vector<const MeshScalar*> matched(const std::vector<MeshScalar>& all,
     return found;
 }
 
-// vtkDataSetAttributes.h: DUPLICATECELL, REFINEDCELL, HIDDENCELL; HIDDENPOINT. Points that another
-// piece also has (DUPLICATEPOINT) hide nothing.
-constexpr int hiding_bits = 1 | 8 | 32, hidden_point = 2;
-
 // Removes the arrays that mark ghosts. Returns which of `count` cells or points they hide. `bits`:
 // those of vtkGhostType that hide; levels (of cells only) hide if they are not 0.
 std::vector<bool> take_ghosts(std::vector<MeshScalar>& scalars, std::size_t count, int bits) {
@@ -128,7 +124,7 @@ std::vector<bool> take_ghosts(std::vector<MeshScalar>& scalars, std::size_t coun
         for (std::size_t i = 0; i < count; ++i) {
             const double value = scalar.values[i];
             if (!(value > 0 && value < 256)) continue;
-            if (levels ? bits == hiding_bits : (static_cast<int>(value) & bits) != 0)
+            if (levels ? bits == vtk_hidden_cell : (static_cast<int>(value) & bits) != 0)
                 ghosts[i] = true;
         }
         return true;
@@ -316,9 +312,9 @@ void MeshAssembly::add(MeshPiece piece) {
     if (piece.points.empty() && piece.cells.types.empty()) return;
     check_ends(piece);
     const std::vector<bool> hidden =
-        take_ghosts(piece.point_scalars, piece.points.size(), hidden_point);
+        take_ghosts(piece.point_scalars, piece.points.size(), vtk_hidden_point);
     const std::vector<bool> ghosts =
-        take_ghosts(piece.cell_scalars, piece.cells.types.size(), hiding_bits);
+        take_ghosts(piece.cell_scalars, piece.cells.types.size(), vtk_hidden_cell);
     near_.take(piece.points);
     std::vector<const MeshScalar*> scalars;
     if (!first_) scalars = matched(mesh_.point_scalars, piece.point_scalars, piece, "point data");

@@ -48,6 +48,11 @@ inline bool makes_scalar(std::int64_t components) {
 void add_scalars(std::vector<MeshScalar>& scalars, const std::string& name, std::int64_t components,
                  std::vector<double> values);
 
+// Bits of vtkGhostType that hide (vtkDataSetAttributes.h). Points: HIDDENPOINT. Cells:
+// DUPLICATECELL, which another piece draws, REFINEDCELL and HIDDENCELL. Points that another piece
+// also has (DUPLICATEPOINT) have values like others, and hide nothing.
+inline constexpr int vtk_hidden_point = 2, vtk_hidden_cell = 1 | 8 | 32;
+
 // Joins pieces into one mesh. Points of two pieces at exactly one place become one if they have
 // equal values (unless a piece has several there); others stay copies (mesh/tet_mesh.h). Cells are
 // cut into tets by the places of all points, so that faces between pieces, and between cells that

@@ -162,10 +162,8 @@ class GradientSamples {
     // Returns the gradient along from + t * step, 0 <= t <= 1, in the cell's coordinates (0..1).
     GradientAlong along(const CellIndex& cell, const glm::dvec3& from,
                         const glm::dvec3& step) const {
-        std::array<CellCorners, 3> corners{};
-        if (constant_)
-            return {corners[0].along(from, step), corners[1].along(from, step),
-                    corners[2].along(from, step)};
+        if (constant_) return {};
+        std::array<CellCorners, 3> corners;
         for (std::size_t corner = 0; corner < 8; ++corner) {
             const glm::dvec3 gradient = at({cell[0] + static_cast<std::int64_t>(corner & 1),
                                             cell[1] + static_cast<std::int64_t>(corner >> 1 & 1),

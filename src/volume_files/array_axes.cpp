@@ -137,30 +137,6 @@ std::optional<RegularAxis> regular(const std::vector<double>& coordinates) {
     return axis;
 }
 
-// Returns the metres of a unit of length, or 0 for other units.
-double metres_in(std::string_view unit) {
-    struct Length {
-        std::string_view words;
-        double metres;
-    };
-    constexpr Length lengths[] = {
-        {" m metre meter metres meters ", 1},
-        {" mm millimetre millimeter millimetres millimeters ", 1e-3},
-        {" um \u00b5m \u03bcm micron microns micrometre micrometer micrometres micrometers ", 1e-6},
-        {" nm nanometre nanometer nanometres nanometers ", 1e-9},
-        {" cm centimetre centimeter centimetres centimeters ", 1e-2},
-        {" km kilometre kilometer kilometres kilometers ", 1e3},
-        {" pm picometre picometer picometres picometers ", 1e-12},
-        {" dm decimetre decimeter decimetres decimeters ", 1e-1},
-        {" inch inches ", 0.0254},
-        {" foot feet ", 0.3048},
-        {" angstrom angstroms \u00c5 ", 1e-10}};
-    const std::string whole = fmt::format(" {} ", unit);
-    for (const Length& length : lengths)
-        if (length.words.find(whole) != std::string_view::npos) return length.metres;
-    return 0;
-}
-
 // Gives each axis of an array its role, and takes one index on those that are not in space.
 class RoleFinder {
   public:
@@ -310,7 +286,7 @@ void unite(const std::string& name, Grid& grid, const std::array<std::string, 3>
     std::ranges::replace(words, std::string(), std::string("none"));
     bool differ = false;
     for (std::size_t i = 0; i < 3; ++i) {
-        const double from = metres_in(units[i]), to = metres_in(grid.unit);
+        const double from = metres_of(units[i]), to = metres_of(grid.unit);
         const bool are_degrees = units[i].starts_with("degree") && grid.unit.starts_with("degree");
         if (units[i] == grid.unit || units[i].empty() || are_degrees) continue;
         if (from == 0 || to == 0) {

@@ -307,10 +307,9 @@ DicomSeries read_dicom_series(const Path& path, const VolumeRequest& request,
 
 // Throws Error if a compressed image has more pixels than its file can hold, before taking memory.
 void expect_pixels(const DicomSeries& series) {
-    constexpr std::uint64_t most_expansion = 1 << 16;
     for (const DicomImage& image : series.images) {
         const std::uint64_t there = std::filesystem::file_size(image.file);
-        if (image.compressed && image.byte_count() / most_expansion > there) {
+        if (image.compressed && image.byte_count() / most_dicom_expansion > there) {
             fail("{}: the header promises {} bytes of pixels, the file has {} in all",
                  image.file.string(), image.byte_count(), there);
         }

@@ -29,7 +29,6 @@ constexpr std::int64_t most_frames = 1 << 17;
 
 // Writes a compressed image's byte_count() bytes to `to`. Throws Error, always without GDCM.
 void decode_dicom(const DicomImage& image, char* to) {
-    constexpr std::uint64_t most_expansion = 1 << 16;
     const std::string name = image.file.string();
     gdcm::Trace::DebugOff();
     gdcm::Trace::WarningOff();
@@ -46,7 +45,7 @@ void decode_dicom(const DicomImage& image, char* to) {
     }
     const std::size_t bytes = image.byte_count();
     const std::uint64_t there = std::filesystem::file_size(image.file);
-    if (bytes / most_expansion > there || decoded.GetBufferLength() != bytes) {
+    if (bytes / most_dicom_expansion > there || decoded.GetBufferLength() != bytes) {
         fail("{}: the header promises {} bytes of pixels, decoded are {}, of {} in the file", name,
              bytes, decoded.GetBufferLength(), there);
     }

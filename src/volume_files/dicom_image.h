@@ -26,6 +26,10 @@ struct DicomFrame {
     std::vector<std::pair<std::size_t, double>> phase;     // phase_attributes that it has
 };
 
+// Upper bound on the bytes that one byte of compressed pixels decodes to. Headers that promise more
+// are refused before memory is taken.
+inline constexpr std::uint64_t most_dicom_expansion = 1 << 16;
+
 // Describes a DICOM image, without its pixels.
 struct DicomImage {
     std::filesystem::path file;

@@ -342,15 +342,19 @@ void set_byte_order(StoredData& data, bool big_endian) {
         data.encoding != DataEncoding::ascii && bytes_of(data.type) > 1 && big_endian != native_big;
 }
 
+void expect_named_file(const Path& file, const std::string& what) {
+    expect_allowed(file);
+    if (const char* const reason = why_not_regular(file))
+        fail("{}: {}: {}", file.string(), what, reason);
+}
+
 void set_data_files(StoredData& data, const std::vector<std::string>& names,
                     const std::optional<std::size_t>& axes_each, const char* field) {
     const std::string name = data.path.string();
     check_file_count(data, static_cast<std::int64_t>(names.size()), axes_each, field);
     for (const std::string& file : names) {
         data.files.push_back(data.path.parent_path() / file);
-        expect_allowed(data.files.back());
-        if (const char* const reason = why_not_regular(data.files.back()))
-            fail("{}: {} of {}: {}", data.files.back().string(), field, name, reason);
+        expect_named_file(data.files.back(), fmt::format("{} of {}", field, name));
     }
 }
 

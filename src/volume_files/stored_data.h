@@ -83,6 +83,10 @@ struct StoredData {
 // Sets swap_bytes. Type and encoding must be set before.
 void set_byte_order(StoredData& data, bool big_endian);
 
+// Throws Error unless a file that another one names may be opened, and is a regular file. `what`:
+// for messages, such as "data file of a.nhdr".
+void expect_named_file(const std::filesystem::path& file, const std::string& what);
+
 // Sets `files`, which a header in `path` names relative to itself. Axes must be set before. Each
 // file holds the first `axes_each` axes; if these are all axes, an equal share of the last. If
 // `axes_each` is empty, a single file holds all axes, and each of several all but the last. Throws

@@ -35,19 +35,12 @@ std::vector<Path> tiff_files_in(const Path& path) {
     return files;
 }
 
-// Throws Error unless a file that another one names is allowed and there.
-void expect_named_file(const Path& path, const char* what, const std::string& namer) {
-    expect_allowed(path);
-    if (const char* const reason = why_not_regular(path))
-        fail("{}: {} of {}: {}", path.string(), what, namer, reason);
-}
-
 // Returns OME's XML for a file's description, which may leave it to another file.
 std::string ome_xml(const Path& file, const std::string& description) {
     const std::string metadata = files_of_ome(description).metadata;
     if (metadata.empty()) return description;
     const Path path = file.parent_path() / metadata;
-    expect_named_file(path, "metadata file", file.string());
+    expect_named_file(path, fmt::format("metadata file of {}", file.string()));
     return has_tiff_mark(path) ? TiffFile(path).beginning().description : read_file_bytes(path);
 }
 
@@ -104,7 +97,8 @@ class TiffStack {
     TiffFile& open(std::size_t number) {
         if (!file_ || opened_ != number) {
             if (found_.writer == "OME")
-                expect_named_file(files_[number], "file of the OME data set", name_);
+                expect_named_file(files_[number],
+                                  fmt::format("file of the OME data set of {}", name_));
             file_ = std::make_unique<TiffFile>(files_[number]);
             opened_ = number;
         }

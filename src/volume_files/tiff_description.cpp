@@ -18,17 +18,6 @@ namespace {
 
 using ImageJValues = std::map<std::string, std::string>;
 
-// Returns how many metres a unit of lengths has; 0 if it is none, or unknown.
-double metres_of(const std::string& unit) {
-    static const std::map<std::string, double> units{
-        {"km", 1e3},       {"m", 1},      {"dm", .1},       {"cm", 1e-2},    {"mm", 1e-3},
-        {"µm", 1e-6},      {"μm", 1e-6},  {"um", 1e-6},     {"nm", 1e-9},    {"Å", 1e-10},
-        {"A", 1e-10},      {"pm", 1e-12}, {"in", .0254},    {"inch", .0254}, {"micron", 1e-6},
-        {"microns", 1e-6}, {"ft", .3048}, {"thou", 2.54e-5}};
-    const auto found = units.find(unit);
-    return found == units.end() ? 0 : found->second;
-}
-
 std::string imagej_value(const ImageJValues& values, const char* key) {
     const auto found = values.find(key);
     return found == values.end() ? std::string() : found->second;

@@ -13,6 +13,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "mesh/predicates.h"
 #include "volume/volume_store.h"
 #include "volume_files/sample_sources.h"
 
@@ -35,8 +36,8 @@ constexpr double longest_step = 1e100;
 // decomposition, by Newton's iteration X -> (X + X^-T) / 2 (Higham, Computing the polar
 // decomposition, SIAM J. Sci. Stat. Comput. 7, 1986, section 3).
 glm::dmat3 nearest_orthogonal(glm::dmat3 directions) {
-    // The iteration squares the error, at most .002 at first: after 4 steps it is below rounding.
-    for (int round = 0; round < 5; ++round)
+    // The iteration squares the error, at most .002 at first: after 3 steps it is below rounding.
+    for (int round = 0; round < 4; ++round)
         directions = 0.5 * (directions + glm::transpose(glm::inverse(directions)));
     return directions;
 }
@@ -44,15 +45,10 @@ glm::dmat3 nearest_orthogonal(glm::dmat3 directions) {
 // Returns how far the samples of `to` lie at most from those of `from`: the largest distance
 // between the corners of both, because the distance is convex.
 double largest_shift(const Grid& from, const Grid& to) {
+    const glm::dvec3 last = glm::dvec3(from.size[0], from.size[1], from.size[2]) - 1.;
     double largest = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        glm::dvec3 index{0};
-        for (int axis = 0; axis < 3; ++axis) {
-            if ((corner >> axis & 1) != 0)
-                index[axis] = static_cast<double>(from.size[static_cast<std::size_t>(axis)] - 1);
-        }
+    for (const glm::dvec3& index : box_corners(glm::dvec3(0), last))
         largest = std::max(largest, glm::distance(from.to_world(index), to.to_world(index)));
-    }
     return largest;
 }
 
@@ -120,6 +116,30 @@ std::string unit_word(std::string_view found) {
             return static_cast<unsigned char>(letter) < ' ' || letter == '"' || letter == '\\';
         });
     return is_word ? std::string(found) : std::string();
+}
+
+double metres_of(std::string_view unit) {
+    struct Length {
+        std::string_view words;  // between blanks
+        double metres;
+    };
+    constexpr Length lengths[] = {
+        {" km kilometre kilometer kilometres kilometers ", 1e3},
+        {" m metre meter metres meters ", 1},
+        {" dm decimetre decimeter decimetres decimeters ", .1},
+        {" cm centimetre centimeter centimetres centimeters ", 1e-2},
+        {" mm millimetre millimeter millimetres millimeters ", 1e-3},
+        {" um \u00b5m \u03bcm micron microns micrometre micrometer micrometres micrometers ", 1e-6},
+        {" nm nanometre nanometer nanometres nanometers ", 1e-9},
+        {" A \u00c5 angstrom angstroms ", 1e-10},
+        {" pm picometre picometer picometres picometers ", 1e-12},
+        {" ft foot feet ", .3048},
+        {" in inch inches ", .0254},
+        {" thou ", 2.54e-5}};
+    const std::string whole = fmt::format(" {} ", unit);
+    for (const Length& length : lengths)
+        if (length.words.find(whole) != std::string_view::npos) return length.metres;
+    return 0;
 }
 
 namespace {

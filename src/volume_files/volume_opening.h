@@ -43,6 +43,9 @@ void turn_to_lps(Grid& grid, WorldAxes axes);
 // is no such word: longer than 32 bytes, or with control characters or quotes.
 std::string unit_word(std::string_view found);
 
+// Returns how many metres a unit of lengths has; 0 if it is none, or unknown.
+double metres_of(std::string_view unit);
+
 // Lists what a file has of which a volume is one part, with the file's names; a part without a name
 // has an empty one.
 struct VolumeContents {

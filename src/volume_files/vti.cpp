@@ -26,13 +26,6 @@ bool is_image_type(const std::string& type) {
            type == "PRectilinearGrid";
 }
 
-// Throws Error unless a file that another one names may be opened and is there.
-void expect_named_file(const Path& file, const std::string& what) {
-    expect_allowed(file);
-    if (const char* const reason = why_not_regular(file))
-        fail("{}: {}: {}", file.string(), what, reason);
-}
-
 // Tells if a file of a .pvd is an image: by its name if it is not there.
 bool names_image(const Path& file) {
     std::error_code absent;

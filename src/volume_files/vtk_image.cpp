@@ -11,6 +11,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "mesh_files/mesh_assembly.h"
 
 namespace lamina {
 namespace {
@@ -24,10 +25,6 @@ constexpr std::size_t most_vtk_expansion = 32768;
 // largest coordinate; or the sixth digit, which is the last of VTK's text, if it is below a
 // hundredth of a step.
 constexpr double float_digits = 1.2e-7, text_digits = 5e-6, share_of_step = 0.01;
-
-// Bits of vtkGhostType (vtkDataSetAttributes.h). Points: HIDDENPOINT. Cells: DUPLICATECELL, which
-// another piece draws, REFINEDCELL and HIDDENCELL. Duplicate points have values like others.
-constexpr int hidden_point_bits = 2, hidden_cell_bits = 1 | 8 | 32;
 
 VtkSize size_of(const VtkExtent& extent, bool of_cells) {
     VtkSize size{};
@@ -253,7 +250,7 @@ class VtkImage {
             if (values.type != ValueType::uint8 || array.components != 1)
                 fail("{}: found {}, expected uint8, one a point or cell", what,
                      name_of(values.type));
-            const int hiding = levels ? 255 : of_cells ? hidden_cell_bits : hidden_point_bits;
+            const int hiding = levels ? 255 : of_cells ? vtk_hidden_cell : vtk_hidden_point;
             for (std::size_t i = 0; i < ghosts.size(); ++i)
                 ghosts[i] |= (static_cast<unsigned char>(values.bytes.text()[i]) & hiding) != 0;
         }
