@@ -161,6 +161,17 @@ void Buffer::write_bytes(std::span<const std::byte> bytes, std::size_t byte_offs
     check("writing a buffer");
 }
 
+void Buffer::read_bytes(std::span<std::byte> bytes, std::size_t byte_offset) const {
+    assert(byte_offset + bytes.size() <= byte_count());
+    api().GetNamedBufferSubData(id(), static_cast<GLintptr>(byte_offset),
+                                static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+    check("reading a buffer");
+}
+
+void Buffer::clear() {
+    api().ClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
+
 void Buffer::bind_storage(unsigned binding) const {
     api().BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id());
 }

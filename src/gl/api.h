@@ -129,6 +129,15 @@ class Buffer {
         write_bytes(std::as_bytes(elements), byte_offset);
     }
 
+    // Waits for the GPU and fills `elements` with the bytes from `byte_offset` on, which must
+    // exist.
+    template <typename T, std::size_t extent>
+    void read(std::span<T, extent> elements, std::size_t byte_offset = 0) const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        read_bytes(std::as_writable_bytes(elements), byte_offset);
+    }
+    void clear();  // sets all bytes to 0
+
     // Binds the buffer to the storage block that shaders declare with `binding`.
     void bind_storage(unsigned binding) const;
 
@@ -141,6 +150,7 @@ class Buffer {
   private:
     Buffer(std::size_t byte_count, unsigned storage_flags);
     void write_bytes(std::span<const std::byte> bytes, std::size_t byte_offset);
+    void read_bytes(std::span<std::byte> bytes, std::size_t byte_offset) const;
 
     Handle<ObjectKind::buffer> handle_;
     AllocatedBytes bytes_;

@@ -213,8 +213,17 @@ bool mentions(const std::string& text, std::string_view word) {
     return false;
 }
 
-std::string names_of(const ShaderSource& vertex, const ShaderSource& fragment) {
-    return vertex.name + " + " + fragment.name;
+GLenum stage_of(const ShaderSource& source) {
+    if (source.name.ends_with(".vert")) return GL_VERTEX_SHADER;
+    if (source.name.ends_with(".frag")) return GL_FRAGMENT_SHADER;
+    if (source.name.ends_with(".comp")) return GL_COMPUTE_SHADER;
+    fail("shader {}: expected a name that ends in .vert, .frag or .comp", source.name);
+}
+
+std::string names_of(const ShaderSources& sources) {
+    std::string names;
+    for (const ShaderSource& source : sources) names += (names.empty() ? "" : " + ") + source.name;
+    return names;
 }
 
 }  // namespace
@@ -268,32 +277,30 @@ std::string readable_log(const std::string& log, const ShaderSource& source) {
     return one_line(text);
 }
 
-LinkedProgram::LinkedProgram(const ShaderSource& vertex, const ShaderSource& fragment)
-    : handle_(api().CreateProgram()),
-      names_(names_of(vertex, fragment)),
-      vertex_text_(vertex.text),
-      fragment_text_(fragment.text) {
+LinkedProgram::LinkedProgram(const ShaderSources& sources)
+    : handle_(api().CreateProgram()), names_(names_of(sources)) {
     const Stage compiling("compile");
-    const Shader vertex_shader = compile(GL_VERTEX_SHADER, vertex);
-    const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment);
-    api().AttachShader(id(), vertex_shader.id());
-    api().AttachShader(id(), fragment_shader.id());
+    std::vector<Shader> shaders;
+    for (const ShaderSource& source : sources) {
+        texts_.push_back(source.text);
+        shaders.push_back(compile(stage_of(source), source));
+        api().AttachShader(id(), shaders.back().id());
+    }
     api().LinkProgram(id());
-    api().DetachShader(id(), vertex_shader.id());
-    api().DetachShader(id(), fragment_shader.id());
+    for (const Shader& shader : shaders) api().DetachShader(id(), shader.id());
     GLint linked = GL_FALSE;
     api().GetProgramiv(id(), GL_LINK_STATUS, &linked);
     if (!linked) {
         fail("shaders {} do not link: {} ({})", names_,
              one_line(log_of(id(), api().GetProgramiv, api().GetProgramInfoLog)),
-             describe(fragment.defines));
+             describe(sources.back().defines));
     }
     check("making the program " + names_);
 }
 
-bool LinkedProgram::is_of(const ShaderSource& vertex, const ShaderSource& fragment) const {
-    return fragment_text_ == fragment.text && vertex_text_ == vertex.text &&
-           names_ == names_of(vertex, fragment);
+bool LinkedProgram::is_of(const ShaderSources& sources) const {
+    return std::ranges::equal(texts_, sources, {}, {}, &ShaderSource::text) &&
+           names_ == names_of(sources);
 }
 
 int LinkedProgram::location(std::string_view name) {
@@ -302,7 +309,8 @@ int LinkedProgram::location(std::string_view name) {
     const std::string owned(name);
     const int found = api().GetUniformLocation(id(), owned.c_str());
     const std::string_view base = name.substr(0, name.find_first_of(".["));
-    if (found < 0 && !mentions(vertex_text_, base) && !mentions(fragment_text_, base))
+    const auto has_name = [&](const std::string& text) { return mentions(text, base); };
+    if (found < 0 && std::ranges::none_of(texts_, has_name))
         fail("shaders {} have no uniform {}", names_, name);
     locations_.emplace(owned, found);
     return found;
@@ -327,15 +335,14 @@ ProgramCache::~ProgramCache() {
     for (const auto& program : programs_) program->abandon();
 }
 
-std::shared_ptr<LinkedProgram> ProgramCache::get(const ShaderSource& vertex,
-                                                 const ShaderSource& fragment) {
+std::shared_ptr<LinkedProgram> ProgramCache::get(const ShaderSources& sources) {
     const auto found = std::ranges::find_if(
-        programs_, [&](const auto& program) { return program->is_of(vertex, fragment); });
+        programs_, [&](const auto& program) { return program->is_of(sources); });
     if (found != programs_.end()) {
         programs_.splice(programs_.begin(), programs_, found);
         return programs_.front();
     }
-    programs_.push_front(std::make_shared<LinkedProgram>(vertex, fragment));
+    programs_.push_front(std::make_shared<LinkedProgram>(sources));
     ++compiled_;
     if (programs_.size() > most_programs) programs_.pop_back();
     return programs_.front();
@@ -343,15 +350,25 @@ std::shared_ptr<LinkedProgram> ProgramCache::get(const ShaderSource& vertex,
 
 Program::Program(const std::string& vertex_name, const std::string& fragment_name,
                  const Defines& defines)
-    : Program(compose_shader(vertex_name, defines), compose_shader(fragment_name, defines)) {}
+    : Program(ShaderSources{compose_shader(vertex_name, defines),
+                            compose_shader(fragment_name, defines)}) {}
 
-Program::Program(const ShaderSource& vertex, const ShaderSource& fragment)
-    : linked_(current_context()->programs().get(vertex, fragment)),
+Program::Program(const std::string& compute_name, const Defines& defines)
+    : Program(ShaderSources{compose_shader(compute_name, defines)}) {}
+
+Program::Program(const ShaderSources& sources)
+    : linked_(current_context()->programs().get(sources)),
       user_(current_context()->programs().new_user()) {}
 
 void Program::use() const {
     if (!linked_->belongs_to(user_)) linked_->give_to(user_, values_);
     api().UseProgram(id());
+}
+
+void Program::dispatch(int groups) const {
+    use();
+    api().DispatchCompute(static_cast<GLuint>(groups), 1, 1);
+    api().MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 }  // namespace lamina::gl

@@ -77,14 +77,18 @@ using UniformValue =
                  std::vector<glm::dvec2>, std::vector<glm::dvec3>, std::vector<glm::dvec4>,
                  std::vector<int>, std::vector<glm::ivec2>, std::vector<glm::ivec3>>;
 
-// A linked vertex and fragment shader, shared by all Program objects of a context that have the
-// same source text. OpenGL holds the uniform values of one of these Programs at a time, the user.
+// The shaders of a program: a vertex and a fragment shader, or a compute shader. The ending of a
+// name says which it is: .vert, .frag or .comp.
+using ShaderSources = std::vector<ShaderSource>;
+
+// Linked shaders, shared by all Program objects of a context that have the same source text. OpenGL
+// holds the uniform values of one of these Programs at a time, the user.
 class LinkedProgram {
   public:
     // Throws Error with the shader's name, file, line and defines if it does not compile or link.
-    LinkedProgram(const ShaderSource& vertex, const ShaderSource& fragment);
+    explicit LinkedProgram(const ShaderSources& sources);
 
-    bool is_of(const ShaderSource& vertex, const ShaderSource& fragment) const;
+    bool is_of(const ShaderSources& sources) const;
     // Returns a uniform's location, or -1 if the source names the uniform but this specialisation
     // does not use it. Throws Error for a name that is nowhere in the source.
     int location(std::string_view name);
@@ -99,8 +103,8 @@ class LinkedProgram {
 
   private:
     Handle<ObjectKind::program> handle_;
-    std::string names_;                        // names of both shaders, for messages
-    std::string vertex_text_, fragment_text_;  // also tell an unused uniform from a misspelt one
+    std::string names_;               // names of the shaders, for messages
+    std::vector<std::string> texts_;  // also tell an unused uniform from a misspelt one
     std::map<std::string, int, std::less<>> locations_;
     std::map<int, UniformValue> values_;  // values that OpenGL has, by location
     std::uint64_t user_ = 0;              // the user whose values these are; 0: none
@@ -118,7 +122,7 @@ class ProgramCache {
 
     // Returns the program of these sources, and compiles it if it is not cached. Beyond
     // most_programs, the one that was asked for longest ago is dropped.
-    std::shared_ptr<LinkedProgram> get(const ShaderSource& vertex, const ShaderSource& fragment);
+    std::shared_ptr<LinkedProgram> get(const ShaderSources& sources);
     std::uint64_t new_user() { return ++last_user_; }
 
     int compiled() const { return compiled_; }  // programs compiled so far
@@ -129,17 +133,22 @@ class ProgramCache {
     int compiled_ = 0;
 };
 
-// A linked vertex and fragment shader with uniforms of its own, 0 at first. Throws Error with the
-// shader's name, file, line and defines if it does not compile or link.
+// Linked shaders with uniforms of their own, 0 at first. Throws Error with the shader's name, file,
+// line and defines if one does not compile or link.
 class Program {
   public:
     // `vertex_name`, `fragment_name`: files in shaders/. Both are specialised by the same defines.
     Program(const std::string& vertex_name, const std::string& fragment_name,
             const Defines& defines = {});
-    Program(const ShaderSource& vertex, const ShaderSource& fragment);
+    // `compute_name`: a file in shaders/.
+    explicit Program(const std::string& compute_name, const Defines& defines = {});
+    explicit Program(const ShaderSources& sources);
 
     // Makes this the program of the draws that follow, with its uniforms.
     void use() const;
+    // Runs `groups` workgroups of a compute shader. Later dispatches see what it writes to storage
+    // blocks, and so does Buffer::read().
+    void dispatch(int groups) const;
 
     // Set a uniform, or an array; the program need not be in use. A uniform of the source that this
     // specialisation does not use is ignored. Throw Error for a name that is not in the source.

@@ -42,6 +42,25 @@ TEST_F(BufferTest, ReachesTheShaderAsStorageBlocks) {
     }
 }
 
+TEST_F(BufferTest, IsWrittenByDispatchesOneAfterTheOther) {
+    Buffer storage(8 * sizeof(std::uint32_t));
+    storage.clear();
+    Program program = compute_program(R"(#version 450 core
+        layout(local_size_x = 4) in;
+        layout(std430, binding = 1) buffer Sums { uint sums[]; };
+        uniform int factor;
+        void main() { sums[gl_GlobalInvocationID.x] = sums[gl_GlobalInvocationID.x] * 3u + uint(factor); }
+    )");
+    storage.bind_storage(1);
+    program.set("factor", 5);
+    program.dispatch(2);
+    program.set("factor", 7);
+    program.dispatch(1);
+    std::array<std::uint32_t, 3> found{};
+    storage.read(std::span(found), 2 * sizeof(std::uint32_t));
+    EXPECT_EQ(found, (std::array<std::uint32_t, 3>{22, 22, 5}));
+}
+
 TEST_F(BufferTest, CountsItsBytesAlsoWhenMoved) {
     EXPECT_EQ(bytes_allocated(), 0);
     Buffer first(100);

@@ -70,8 +70,15 @@ inline ShaderFinder with_shaders(std::map<std::string, std::string> texts) {
 // Returns a program for draw_full_screen() that runs `fragment`, the text of a fragment shader, for
 // every pixel.
 inline Program full_screen_program(const std::string& fragment, const Defines& defines = {}) {
-    return Program(compose_shader("gl/full_screen.vert"),
-                   compose_shader("test.frag", defines, with_shaders({{"test.frag", fragment}})));
+    return Program(ShaderSources{
+        compose_shader("gl/full_screen.vert"),
+        compose_shader("test.frag", defines, with_shaders({{"test.frag", fragment}}))});
+}
+
+// Returns a program that runs `compute`, the text of a compute shader.
+inline Program compute_program(const std::string& compute, const Defines& defines = {}) {
+    return Program(ShaderSources{
+        compose_shader("test.comp", defines, with_shaders({{"test.comp", compute}}))});
 }
 
 }  // namespace lamina::gl

@@ -85,8 +85,8 @@ TEST_P(ProgramTest, IsSpecializedByDefines) {
 
 std::string compile_error(const std::map<std::string, std::string>& texts, const Defines& defines) {
     try {
-        Program(compose_shader("gl/full_screen.vert"),
-                compose_shader("test.frag", defines, with_shaders(texts)));
+        Program(ShaderSources{compose_shader("gl/full_screen.vert"),
+                              compose_shader("test.frag", defines, with_shaders(texts))});
     } catch (const Error& error) {
         return error.what();
     }
