@@ -5,13 +5,7 @@
 // Other parts are cut where the scalar turns or crosses a knot (find_next_piece), and pieces that
 // are still too deep are shortened.
 #include "optics/cell_optics.glsl"
-
-// The parts that a ray has passed, composited: associated colour, optical depth and transmittance.
-struct PartSum {
-    vec3 color;
-    float depth;
-    float transmittance;
-};
+#include "slicing/ray_sum.glsl"
 
 #ifndef SINGLE_COLOR
 // Returns the associated colour of a part in one interval.
@@ -24,14 +18,14 @@ vec3 color_of(Interval interval, LinearPart part, float depth, float opacity) {
 }
 
 // Adds a part's associated colour and its opacity.
-void composite(vec3 color, float opacity, inout PartSum sum) {
+void composite(vec3 color, float opacity, inout RaySum sum) {
     sum.color += sum.transmittance * color;
     sum.transmittance -= sum.transmittance * opacity;
 }
 #endif
 
 // Adds a part in one interval.
-void add_linear_part(Interval interval, LinearPart part, float depth, inout PartSum sum) {
+void add_linear_part(Interval interval, LinearPart part, float depth, inout RaySum sum) {
     sum.depth += depth;
 #ifndef SINGLE_COLOR
     float opacity = opacity_from_depth(depth);
@@ -61,7 +55,7 @@ bool shorten(inout LinearPart part, inout float extent) {
 #endif
 
 // Tells whether nothing behind these parts is visible.
-bool is_opaque(PartSum sum) {
+bool is_opaque(RaySum sum) {
 #ifdef SINGLE_COLOR
     return sum.depth > 20.0;
 #else
@@ -125,7 +119,7 @@ void advance(NextPiece next_piece, vec4 cubic, bool whole, float extent, inout C
 #else
 // Adds the next piece of a part, or its beginning if it is too deep, and moves the place behind
 // what was added.
-void add_piece(vec4 cubic, vec2 turns, float world_length, inout CutPlace place, inout PartSum sum) {
+void add_piece(vec4 cubic, vec2 turns, float world_length, inout CutPlace place, inout RaySum sum) {
     NextPiece next_piece = find_next_piece(cubic, turns, place);
     float extent = max(next_piece.t_to - place.t, 0.0);
     LinearPart part = piece_from(place, next_piece.interval, cubic, extent, next_piece.s_to, world_length);
@@ -139,14 +133,14 @@ void add_piece(vec4 cubic, vec2 turns, float world_length, inout CutPlace place,
 }
 
 // Adds a part piece by piece.
-void add_cut_part(vec4 cubic, float world_length, inout PartSum sum) {
+void add_cut_part(vec4 cubic, float world_length, inout RaySum sum) {
     vec2 turns = cubic_turns(cubic);
     CutPlace place = first_place(cubic, turns);
     while (place.t < 1.0 && !is_opaque(sum)) add_piece(cubic, turns, world_length, place, sum);
 }
 
 // Adds a part whose scalar is a cubic, by one rule if possible.
-void add_part(vec4 cubic, float world_length, inout PartSum sum) {
+void add_part(vec4 cubic, float world_length, inout RaySum sum) {
     vec2 range = clamp(cubic_range(cubic), 0.0, 1.0);
     Interval interval = interval_at(find_interval(range.x));
     LinearPart part = linear_part(interval, cubic, world_length);

@@ -13,9 +13,8 @@
 uniform float opaque_depth;
 #endif
 
-// Returns the associated colour and the optical depth of the part of a ray between two depths.
-void integrate_cells(Ray ray, REAL2 depths, out vec3 associated_color, out float optical_depth) {
-    PartSum sum = PartSum(vec3(0.0), 0.0, 1.0);
+// Adds the part of a ray between two depths to what the ray has passed.
+void integrate_cells(Ray ray, REAL2 depths, inout RaySum sum) {
     CellRay cells = cell_ray(ray);
     CellPlace at = place_at(ray, cells, depths.x);
     REAL left = depths.y - depths.x;
@@ -52,6 +51,4 @@ void integrate_cells(Ray ray, REAL2 depths, out vec3 associated_color, out float
         at.cell += ivec3(leaves) * (2 * ivec3(cells.forward) - 1);
         left -= REAL(way);
     }
-    associated_color = sum.color;
-    optical_depth = sum.depth;
 }

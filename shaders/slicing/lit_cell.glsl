@@ -31,7 +31,7 @@ void choose_length(bool again, bool whole, bool full, float extent, inout PieceL
 // Adds the next piece of a part, or its beginning if it is too deep, and moves the place behind
 // what was added. If its light bends too much, nothing is added and the next piece is shorter.
 void add_lit_piece(vec4 cubic, vec2 turns, float world_length, CellGradient gradient, vec3 to_eye,
-                   inout PieceLength pieces, inout CutPlace place, inout PartSum sum) {
+                   inout PieceLength pieces, inout CutPlace place, inout RaySum sum) {
     NextPiece next_piece = find_next_piece(cubic, turns, place);
     float extent = max(next_piece.t_to - place.t, 0.0);
     bool to_end = extent <= pieces.longest;
@@ -52,7 +52,7 @@ void add_lit_piece(vec4 cubic, vec2 turns, float world_length, CellGradient grad
 
 // Adds a part piece by piece, the first one at most `longest`.
 void add_cut_part(vec4 cubic, float world_length, CellGradient gradient, vec3 to_eye, float longest,
-                  inout PartSum sum) {
+                  inout RaySum sum) {
     vec2 turns = cubic_turns(cubic);
     CutPlace place = first_place(cubic, turns);
     PieceLength pieces = PieceLength(longest, longest, false);
@@ -61,7 +61,7 @@ void add_cut_part(vec4 cubic, float world_length, CellGradient gradient, vec3 to
 }
 
 // Adds a part whose scalar is a cubic, by one rule if possible. `way`: its place in the cell.
-void add_part(vec4 cubic, float world_length, LitStep way, inout PartSum sum) {
+void add_part(vec4 cubic, float world_length, LitStep way, inout RaySum sum) {
     vec2 range = clamp(cubic_range(cubic), 0.0, 1.0);
     Interval interval = interval_at(find_interval(range.x));
     LinearPart part = linear_part(interval, cubic, world_length);

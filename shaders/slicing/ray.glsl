@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the viewing ray of a fragment in the texture's index space: origin + depth * direction,
+// Computes the viewing ray of a pixel in the texture's index space: origin + depth * direction,
 // where depth is eye-space depth from the front of the nearest slab. The processor computes all
 // coefficients in double precision, relative to the box, so that neither a far eye nor far world
 // coordinates cost accuracy. PRECISE_RAYS: rays stay double until lengths are known, because those
@@ -42,9 +42,9 @@ struct Ray {
 #include "slicing/clip.glsl"
 #endif
 
-Ray view_ray(vec2 fragment) {
-    vec2 from_middle = (fragment - image_middle) * vec2(1.0, -1.0);  // exact
-    REAL2 pixel = REAL2(from_middle);
+// `place`: the pixel's middle, in pixels from the image's left and top edge.
+Ray view_ray(vec2 place) {
+    REAL2 pixel = REAL2(place - image_middle);  // exact
     Ray ray;
     ray.origin = origin_middle + pixel.x * origin_column + pixel.y * origin_row;
     ray.direction = direction_middle;

@@ -74,10 +74,9 @@ Segment integrate(Ray ray, REAL2 depths) {
 }
 #elif defined(EXACT)
 Segment integrate(Ray ray, REAL2 depths) {
-    vec3 color;
-    float depth;
-    integrate_cells(ray, depths, color, depth);
-    return Segment(color_or_single(color / max(opacity_from_depth(depth), 1e-37)), DEPTH(depth));
+    RaySum sum = empty_sum;
+    integrate_cells(ray, depths, sum);
+    return Segment(color_or_single(sum.color / max(opacity_from_depth(sum.depth), 1e-37)), DEPTH(sum.depth));
 }
 #elif defined(PREINTEGRATED)
 #ifdef LINEAR

@@ -58,7 +58,7 @@ uvec3 color_codes(vec3 color) { return uvec3(color_code(color.r), color_code(col
 #endif
 
 void main() {
-    Ray ray = view_ray(gl_FragCoord.xy);
+    Ray ray = view_ray(vec2(gl_FragCoord.x, 2.0 * image_middle.y - gl_FragCoord.y));
     REAL2 depths = clip_to_box(ray, slab_depths(slab, 1.0));
     if (!(depths.y > depths.x)) discard;
     Segment segment = integrate(ray, depths);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Composites the slabs of a leaf along a ray, front to back, in registers. OCCUPIED_ONLY: leaps
 // over empty space. ENDS_EARLY: ends the ray once nothing behind is visible.
+#include "slicing/ray_sum.glsl"
 #ifdef OCCUPIED_ONLY
 #include "slicing/empty_space.glsl"
 #endif
@@ -8,15 +9,15 @@
 uniform float opaque_depth;
 #endif
 
-// Returns the associated colour and the optical depth of the part of a ray between the depths
-// `whole`. It lies in slabs slab .. slab + slabs - 1.
-void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, out vec3 associated_color, out float optical_depth) {
+// Adds the part of a ray between the depths `whole` to what the ray has passed. It lies in slabs
+// slab .. slab + slabs - 1.
+void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, inout RaySum sum) {
     float first = max(slab, floor(float(whole.x / slab_thickness)) - 1.0);
     float end = min(slab + slabs, ceil(float(whole.y / slab_thickness)) + 1.0);
     // These are sums of thousands of small terms. With PRECISE_RAYS they are double.
-    REAL3 color = REAL3(0.0);
-    REAL depth = REAL(0.0);
-    REAL transmittance = REAL(1.0);
+    REAL3 color = REAL3(sum.color);
+    REAL depth = REAL(sum.depth);
+    REAL transmittance = REAL(sum.transmittance);
 #ifdef PREINTEGRATED
     float front = sample_scalar(point_at(ray, whole.x));
 #ifdef LIGHTS
@@ -70,6 +71,5 @@ void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, out vec3 associa
         if (float(depth) >= opaque_depth) break;
 #endif
     }
-    associated_color = vec3(color);
-    optical_depth = float(depth);
+    sum = RaySum(vec3(color), float(depth), float(transmittance));
 }

@@ -176,6 +176,11 @@ void Buffer::bind_storage(unsigned binding) const {
     api().BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id());
 }
 
+void Buffer::bind_storage(unsigned binding, std::size_t byte_offset, std::size_t byte_count) const {
+    api().BindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, id(),
+                          static_cast<GLintptr>(byte_offset), static_cast<GLsizeiptr>(byte_count));
+}
+
 VertexArray::VertexArray() : handle_(new_object(ObjectKind::vertex_array)) {
     check("making a vertex array");
 }

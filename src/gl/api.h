@@ -140,6 +140,8 @@ class Buffer {
 
     // Binds the buffer to the storage block that shaders declare with `binding`.
     void bind_storage(unsigned binding) const;
+    // Binds a part alone, which must begin at a multiple of 256 bytes.
+    void bind_storage(unsigned binding, std::size_t byte_offset, std::size_t byte_count) const;
 
     // Returns the mapped memory, which is slow to read; null if the buffer is not mapped.
     std::byte* mapped() const { return mapped_; }

@@ -91,7 +91,7 @@ void Context::initialise(LoadFunction load, const char* interface_name, bool sof
     capabilities_.renderer = std::string(interface_name) + ": " + renderer;
     capabilities_.software = software || is_software_renderer(renderer);
     capabilities_.max_texture_size = largest_render_target();
-    capabilities_.max_array_layers = integer(GL_MAX_ARRAY_TEXTURE_LAYERS);
+    capabilities_.max_storage_bytes = integer(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
     capabilities_.subpixel_bits = integer(GL_SUBPIXEL_BITS);
     capabilities_.framebuffer_fetch = functions_->EXT_shader_framebuffer_fetch != 0;
     capabilities_.max_3d_texture_size = integer(GL_MAX_3D_TEXTURE_SIZE);

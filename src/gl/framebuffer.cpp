@@ -152,29 +152,6 @@ void Framebuffer::read_back(Image& image, std::size_t target) const {
     }
 }
 
-LayerFramebuffer::LayerFramebuffer() : handle_(new_object(ObjectKind::framebuffer)) {}
-
-void LayerFramebuffer::bind(std::initializer_list<const Texture*> arrays, int layer) {
-    const int count = static_cast<int>(arrays.size());
-    std::vector<GLenum> outputs;
-    for (const Texture* const array : arrays) {
-        outputs.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(outputs.size()));
-        api().NamedFramebufferTextureLayer(handle_.id(), outputs.back(), array->id(), 0, layer);
-    }
-    if (count != bound_) {
-        api().NamedFramebufferDrawBuffers(handle_.id(), count, outputs.data());
-        bound_ = count;
-    }
-    api().BindFramebuffer(GL_FRAMEBUFFER, handle_.id());
-    api().Viewport(0, 0, (*arrays.begin())->width(), (*arrays.begin())->height());
-}
-
-void LayerFramebuffer::clear() {
-    const float zero[4] = {0, 0, 0, 0};
-    for (int target = 0; target < bound_; ++target)
-        api().ClearNamedFramebufferfv(handle_.id(), GL_COLOR, target, zero);
-}
-
 void draw_full_screen(const Program& program) {
     draw_full_screen(program, VertexArray());
 }

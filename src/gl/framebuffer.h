@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <glm/vec4.hpp>
-#include <initializer_list>
 #include <vector>
 
 #include "gl/api.h"
@@ -36,20 +35,6 @@ class Framebuffer {
   private:
     std::vector<Texture> colors_;
     Handle<ObjectKind::framebuffer> handle_;
-};
-
-// Draws into single layers of array textures, which the caller owns and must keep alive.
-class LayerFramebuffer {
-  public:
-    LayerFramebuffer();
-
-    // Binds layer `layer` of texture i for output i; the viewport covers the layer.
-    void bind(std::initializer_list<const Texture*> arrays, int layer);
-    void clear();  // sets all bound targets to zero
-
-  private:
-    Handle<ObjectKind::framebuffer> handle_;
-    int bound_ = 0;
 };
 
 // Runs the program (vertex shader "gl/full_screen.vert") for all pixels of the bound target.

@@ -64,11 +64,6 @@ Texture Texture::make_2d(TextureFormat format, int width, int height) {
     return Texture(GL_TEXTURE_2D, format, {.width = width, .height = height}, 1);
 }
 
-Texture Texture::make_2d_array(TextureFormat format, int width, int height, int layers) {
-    return Texture(GL_TEXTURE_2D_ARRAY, format, {.width = width, .height = height, .depth = layers},
-                   integer(GL_MAX_ARRAY_TEXTURE_LAYERS));
-}
-
 Texture Texture::make_3d(TextureFormat format, int width, int height, int depth) {
     return Texture(GL_TEXTURE_3D, format, {.width = width, .height = height, .depth = depth},
                    integer(GL_MAX_3D_TEXTURE_SIZE));

@@ -28,7 +28,7 @@ const TextureFormatInfo& info_of(TextureFormat format);
 
 enum class TextureFilter { nearest, linear };
 
-// A box of texels: first texel and size. For a 2D array, z counts layers.
+// A box of texels: first texel and size.
 struct TexelBox {
     int x = 0, y = 0, z = 0;
     int width = 1, height = 1, depth = 1;
@@ -48,7 +48,6 @@ class Texture {
     Texture() = default;
     static Texture make_1d(TextureFormat format, int width);
     static Texture make_2d(TextureFormat format, int width, int height);
-    static Texture make_2d_array(TextureFormat format, int width, int height, int layers);
     static Texture make_3d(TextureFormat format, int width, int height, int depth);
 
     // Fills `box`, x fastest, from `components`, which must reach its last texel (assert): uint8

@@ -138,10 +138,11 @@ bool may_be_quicker(const Scene& scene);
 // own, that of its tree, or the choice's. With exact segments all numbers are equally good.
 Scene with_classification(Scene scene, const ClassificationChoice& choice);
 
-// The next three functions respect a limit of llvmpipe: it silently ends the loops of a fragment
-// after 65535 iterations in all (LP_MAX_TGSI_LOOP_ITERATIONS).
+// The next three functions respect a limit of llvmpipe: it silently ends the loops of a fragment, or
+// of a pixel's invocation of a compute shader, after 65535 iterations in all
+// (LP_MAX_TGSI_LOOP_ITERATIONS).
 
-// Returns the largest number of slabs that one fragment can march through. With exact segments,
+// Returns the largest number of slabs that one invocation can march through. With exact segments,
 // slabs are those of a ray that is cut into `slabs`, which must be at least least_exact_slabs().
 int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                        int slabs);
@@ -235,9 +236,5 @@ TreeChoice choose_tree(const TreeQuestion& question);
 // Throws Error if the scene's own tree cannot be drawn. `single_color`: all visible has one colour.
 void check_slice_tree(const Scene& scene, bool single_color);
 void check_project_tree(const Scene& scene, bool single_color);
-
-// Throws Error if a leaf has more than `most` slabs, the limit of the context's loops.
-void check_leaves(const Scene& scene, const TreeShape& shape, int most,
-                  const Capabilities& capabilities);
 
 }  // namespace lamina

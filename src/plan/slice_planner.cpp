@@ -107,6 +107,8 @@ struct SlicePlanner {
         slice.rounding_bound =
             slice.error_bound ? slice.error_bound : rounding_bound(question, slice.tree);
         const bool marched = slice.has_tree(NodeArithmetic::shader);
+        if (marched)
+            slice.marched_slabs = most_marched_slabs(scene, facts, capabilities, slice.slabs);
         slice.dither = choose_dither(question.dither, marched);
 
         static_cast<ViewPlan&>(slice) = choose_view(marched);
@@ -114,7 +116,7 @@ struct SlicePlanner {
             slice.constant_regions = choose_constant_regions(slice.integrates_cells() || marched);
         const bool whole_rays = marched && slice.tree->factors.front() >= slice.slabs;
         if (!slice.nothing_visible && whole_rays)
-            slice.opaque_depth = choose_end_of_rays(slice.bricks.size(), slice.error_bound);
+            slice.opaque_depth = choose_end_of_rays(slice.error_bound);
         if (slice.ends_early()) {
             if (slice.error_bound) *slice.error_bound += hidden_error();
             if (slice.rounding_bound) *slice.rounding_bound += hidden_error();
@@ -267,13 +269,9 @@ struct SlicePlanner {
         return question;
     }
 
-    // Returns the scene's tree, or the choice of an automatic one, or for float32 a tree whose
-    // nodes march as many slabs in registers as the context's loops can.
+    // Returns the scene's tree, or the choice of an automatic one, or for float32 one node that
+    // marches all slabs in registers.
     TreeChoice choose_compositing(const TreeQuestion& question) {
-        const int slabs = question.slabs;
-        const auto most_marched = [&] {
-            return most_marched_slabs(scene, facts, capabilities, slabs);
-        };
         TreeChoice choice;
         if (const TreeSettings* const given = given_tree(scene.slice.tree)) {
             choice.tree = TreePlan{given->factors, given->nodes, given->code, given->alpha_bits};
@@ -284,26 +282,13 @@ struct SlicePlanner {
             } catch (const Error& error) {
                 fail("{}: {}", scene.file.string(), error.what());
             }
-        } else {
-            const int most = most_marched();
-            const bool whole = slabs <= most;
-            const std::string node =
-                whole ? "one node marches all slabs in registers: "
-                      : fmt::format(
-                            "nodes march {} slabs in registers, no more fit into this "
-                            "driver's loops: ",
-                            most);
-            if (omissions.leave_out(question.target == Target::float32, "blending",
-                                    node + "what blending in float32 would give, with one write "
-                                           "a pixel and without its roundings")) {
-                choice.tree = TreePlan{.factors = {slabs}};
-                if (!whole) choice.tree->factors = {(slabs + most - 1) / most, most};
-            }
+        } else if (omissions.leave_out(
+                       question.target == Target::float32, "blending",
+                       "one node marches all slabs in registers: what blending in float32 would "
+                       "give, with one write a pixel and without its roundings")) {
+            choice.tree = TreePlan{.factors = {question.slabs}};
         }
         if (!choice.tree) return choice;
-        if (choice.tree->nodes == NodeArithmetic::shader)
-            check_leaves(scene, TreeShape(choice.tree->factors, slabs), most_marched(),
-                         capabilities);
         if (is_fixed_point(question.target)) choice.tree->largest_color = std::max(max_color, 1.0);
         return choice;
     }
@@ -374,11 +359,10 @@ struct SlicePlanner {
                         percent_text(constant.share), 2 * constant.kind.size()));
     }
 
-    // Returns the optical depth at which rays end, or infinity. Only a ray that one program marches
-    // from end to end can end early; in OpenGL, several programs draw several bricks.
-    double choose_end_of_rays(std::size_t bricks, const std::optional<double>& error_bound) {
+    // Returns the optical depth at which rays end, or infinity. Only a ray that one node marches
+    // from end to end can end early.
+    double choose_end_of_rays(const std::optional<double>& error_bound) {
         constexpr double never = std::numeric_limits<double>::infinity();
-        if (!capabilities.cpu && bricks > 1) return never;
         if (error_bound && *error_bound + hidden_error() > scene.max_error) return never;
         const double depth = opaque_depth(scene.max_error, max_color);
         const DepthRange& seen = facts.occupied_depth;

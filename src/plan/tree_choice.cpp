@@ -244,24 +244,4 @@ void check_project_tree(const Scene& scene, bool single_color) {
     }
 }
 
-void check_leaves(const Scene& scene, const TreeShape& shape, int most,
-                  const Capabilities& capabilities) {
-    int leaf = shape.samples();
-    for (int level = 0; level + 1 < shape.levels(); ++level)
-        leaf = (leaf + shape.factor(level) - 1) / shape.factor(level);
-    if (leaf <= most) return;
-    if (scene.slice.tree && scene.slice.tree->is_automatic()) {
-        fail(
-            "{}: render.slice.tree: found \"auto\", which takes one node of all {} slabs, expected "
-            "at most {} with {}, which ends longer loops: take fewer samples, factors, or "
-            "--context "
-            "cpu",
-            scene.file.string(), leaf, most, capabilities.renderer);
-    }
-    fail(
-        "{}: render.slice.tree.factors: found leaves of {} slabs, expected at most {} with {}, "
-        "which ends longer loops: add a level, or use --context cpu",
-        scene.file.string(), leaf, most, capabilities.renderer);
-}
-
 }  // namespace lamina

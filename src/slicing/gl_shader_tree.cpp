@@ -7,50 +7,66 @@
 
 #include "base/client.h"
 #include "base/error.h"
-#include "executors/gl_compositing.h"
 #include "gl/api.h"
-#include "slicing/gl_slice_renderer.h"
 #include "slicing/slab_geometry.h"
 
 namespace lamina {
 namespace {
 
-constexpr int children_unit = 5, children_alpha_unit = 6, sum_unit = 7;
+constexpr unsigned output_binding = 0, children_binding = 1, kept_binding = 1;  // storage blocks
 
-// Limit in bytes on all images; if the full height takes more, the picture is drawn in bands.
-constexpr std::int64_t image_budget = std::int64_t{1} << 28;
+// Limit in bytes on all nodes and sums; if the full height takes more, it is drawn in bands.
+constexpr std::int64_t memory_budget = std::int64_t{1} << 28;
 
-// Tells whether an alpha code of 16 bits beside colours of 8 bits needs a texture of its own.
-bool has_alpha_apart(const SlicePlan& plan) {
+constexpr int tile_rows = 8;  // of shaders/gl/pixels.glsl
+
+// Tells whether codes have 16 bits beside colours of 8 bits.
+bool has_wide_code(const SlicePlan& plan) {
     return plan.target == Target::fixed8 && plan.tree->alpha_bits == 16;
 }
 
-gl::TextureFormat alpha_format(const SlicePlan& plan) {
-    return has_alpha_apart(plan) ? gl::TextureFormat::r16 : opacity_format(plan);
+// Returns the words of a node's pixel, as shaders/slicing/node_packing.glsl packs it.
+int words_of_node(const SlicePlan& plan) {
+    if (plan.single_color) return 1;
+    return words_of(packing_of(plan)) + (has_wide_code(plan) ? 1 : 0);
 }
 
-std::int64_t bytes_per_layer_texel(const SlicePlan& plan) {
-    if (plan.single_color) return info_of(alpha_format(plan)).bytes_per_texel;
-    const int apart = has_alpha_apart(plan) ? 2 : 0;
-    return info_of(color_format(plan)).bytes_per_texel + apart;
+// Returns the numbers that shaders/slicing/leaf.comp keeps of a ray.
+int kept_numbers(const SlicePlan& plan) {
+    return plan.single_color ? 1 : 5;
+}
+
+int parts_of_leaf(const SlicePlan& plan, int slabs) {
+    return slabs / plan.marched_slabs + (slabs % plan.marched_slabs != 0 ? 1 : 0);
+}
+
+int largest_leaf(const TreeShape& shape) {
+    SampleSpan node = shape.root();
+    for (int level = 0; !shape.is_marched(level, node); ++level)
+        node.count = (node.count + shape.factor(level) - 1) / shape.factor(level);
+    return node.count;
+}
+
+// Tells whether leaves take several dispatches.
+bool keeps_sums(const SlicePlan& plan) {
+    const TreeShape shape(plan.tree->factors, plan.slabs);
+    return plan.bricks.size() > 1 || parts_of_leaf(plan, largest_leaf(shape)) > 1;
 }
 
 // Sets the definitions of shaders/slicing/node_output.glsl.
 void set_node(gl::Defines& defines, const SlicePlan& plan, NodePlace place) {
     defines.set("NODE_CODE", static_cast<int>(plan.tree->code));
+    set_packing(defines, plan);
     if (place == NodePlace::root) defines.set("ROOT", 1);
-    if (plan.single_color) {
-        defines.set("MONOCHROME", 1);
-    } else if (has_alpha_apart(plan)) {
-        defines.set("ALPHA_APART", 1);
-    }
+    if (plan.single_color) defines.set("MONOCHROME", 1);
+    if (has_wide_code(plan)) defines.set("WIDE_CODE", 1);
 }
 
 }  // namespace
 
 gl::Defines leaf_defines(const SlicePlan& plan, gl::Defines segments, NodePlace place) {
     set_node(segments, plan, place);
-    if (plan.bricks.size() > 1) segments.set("ACCUMULATE", 1);
+    if (keeps_sums(plan)) segments.set("KEEPS_SUMS", 1);
     if (plan.occupied_only) {
         segments.set("OCCUPIED_ONLY", 1);
         segments.set("BRICK_EDGE", static_cast<int>(MinMaxBricks::edge));
@@ -71,33 +87,28 @@ GlShaderTree::GlShaderTree(const GlSlabSource& source, const SlicePlan& plan,
       plan_(plan),
       shape_(plan.tree->factors, plan.slabs),
       width_(width),
-      height_(height) {
-    std::int64_t layers = 0;
-    int most_layers = 0;
+      height_(height),
+      picture_(packing_of(plan), width, height) {
     SampleSpan node = shape_.root();  // the largest node of its level
-    std::vector<int> level_layers;
+    std::vector<int> level_nodes;
     for (int level = 0; !shape_.is_marched(level, node); ++level) {
-        level_layers.push_back(std::min(shape_.factor(level), node.count));
-        layers += level_layers.back();
-        most_layers = std::max(most_layers, level_layers.back());
+        level_nodes.push_back(std::min(shape_.factor(level), node.count));
         node.count = (node.count + shape_.factor(level) - 1) / shape_.factor(level);
     }
     leaf_count_ = count_leaves(0, shape_.root());
-    choose_bands(capabilities, layers, most_layers);
-    for (const int count : level_layers) {
-        LevelImages& images = images_.emplace_back();
-        images.color = gl::Texture::make_2d_array(
-            plan_.single_color ? alpha_format(plan_) : color_format(plan_), width_, band_rows_,
-            count);
-        if (!plan_.single_color && has_alpha_apart(plan_)) {
-            images.alpha =
-                gl::Texture::make_2d_array(alpha_format(plan_), width_, band_rows_, count);
-        }
-    }
-    if (plan_.bricks.size() > 1) {
-        sum_.emplace(gl::Texture::make_2d(gl::TextureFormat::rgba32f, width_, band_rows_));
+    choose_bands(capabilities, level_nodes);
+    for (const int count : level_nodes)
+        levels_.emplace_back(sizeof(std::uint32_t) *
+                             static_cast<std::size_t>(count * node_words()));
+    if (keeps_sums(plan_)) {
+        kept_.emplace(sizeof(float) * static_cast<std::size_t>(kept_numbers(plan_)) *
+                      static_cast<std::size_t>(width_) * static_cast<std::size_t>(band_rows_));
     }
     make_programs();
+}
+
+std::int64_t GlShaderTree::node_row_words() const {
+    return std::int64_t{words_of_node(plan_)} * width_;
 }
 
 int GlShaderTree::count_leaves(int level, const SampleSpan& node) const {
@@ -108,47 +119,51 @@ int GlShaderTree::count_leaves(int level, const SampleSpan& node) const {
     return leaves;
 }
 
-void GlShaderTree::choose_bands(const Capabilities& capabilities, std::int64_t layers,
-                                int most_layers) {
-    if (most_layers > capabilities.max_array_layers) {
-        fail(
-            "render.slice.tree.factors: found a node with {} children, this OpenGL allows {} "
-            "layers of a texture: {}",
-            most_layers, capabilities.max_array_layers, capabilities.renderer);
+void GlShaderTree::choose_bands(const Capabilities& capabilities,
+                                const std::vector<int>& level_nodes) {
+    std::int64_t nodes = 0, most_nodes = 0;
+    for (const std::int64_t count : level_nodes) {
+        nodes += count;
+        most_nodes = std::max(most_nodes, count);
     }
-    const std::int64_t row_bytes = layers * width_ * bytes_per_layer_texel(plan_);
-    const std::int64_t fitting =
-        row_bytes > 0 ? std::max<std::int64_t>(image_budget / row_bytes, 1) : height_;
+    const std::int64_t node_bytes = 4 * node_row_words();
+    const std::int64_t kept_bytes = keeps_sums(plan_) ? 4 * kept_numbers(plan_) * width_ : 0;
+    const std::int64_t row_bytes = std::max<std::int64_t>(nodes * node_bytes + kept_bytes, 1);
+    const std::int64_t block_bytes =
+        std::max({most_nodes * node_bytes, kept_bytes, 4 * std::int64_t{picture_.row_words()}});
+    if (block_bytes > capabilities.max_storage_bytes) {
+        fail(
+            "render.slice.tree.factors: found a node with {} children, of which a row of {} pixels "
+            "takes {} bytes; this OpenGL allows {}: {}",
+            most_nodes, width_, block_bytes, capabilities.max_storage_bytes, capabilities.renderer);
+    }
+    const std::int64_t fitting = std::min(std::max<std::int64_t>(memory_budget / row_bytes, 1),
+                                          capabilities.max_storage_bytes / block_bytes);
     const int wanted_bands = (plan_.batches + leaf_count_ - 1) / leaf_count_;
-    band_rows_ = static_cast<int>(
-        std::min<std::int64_t>(fitting, (height_ + wanted_bands - 1) / wanted_bands));
-}
-
-gl::Program GlShaderTree::make_program(const char* fragment, const gl::Defines& defines) {
-    gl::Program program("gl/full_screen.vert", fragment, defines);
-    program.set("single_color", source_.single_color());
-    program.set("largest_color", static_cast<float>(plan_.tree->largest_color));
-    return program;
+    const std::int64_t wanted = (height_ + wanted_bands - 1) / wanted_bands;
+    const std::int64_t whole_tiles = (wanted + tile_rows - 1) / tile_rows * tile_rows;
+    const bool has_tiles = fitting >= tile_rows;
+    band_rows_ = static_cast<int>(std::min({has_tiles ? fitting / tile_rows * tile_rows : fitting,
+                                            whole_tiles, std::int64_t{height_}}));
 }
 
 void GlShaderTree::make_programs() {
+    const auto set_colors = [&](gl::Program& program) {
+        program.set("single_color", source_.single_color());
+        program.set("largest_color", static_cast<float>(plan_.tree->largest_color));
+    };
     defines_ = leaf_defines(plan_, source_.defines(), leaf_place());
-    leaf_.emplace("slicing/slab.vert", "slicing/leaf.frag", defines_);
-    leaf_->set("largest_color", static_cast<float>(plan_.tree->largest_color));
-    if (sum_) {
-        encode_.emplace(make_program("slicing/encode.frag", node_defines(plan_, leaf_place())));
-        encode_->set("sum", sum_unit);
-    }
-    if (images_.empty()) return;
+    leaf_.emplace("slicing/leaf.comp", defines_);
+    set_colors(*leaf_);
+    if (levels_.empty()) return;
     const auto make_node = [&](NodePlace place) {
-        gl::Program program = make_program("slicing/node.frag", node_defines(plan_, place));
-        program.set("children", children_unit);
-        if (images_[0].alpha) program.set("children_alpha", children_alpha_unit);
+        gl::Program program("slicing/node.comp", node_defines(plan_, place));
+        set_colors(program);
         program.set("sample_share", 1.0f / static_cast<float>(shape_.samples()));
         return program;
     };
     root_node_.emplace(make_node(NodePlace::root));
-    if (images_.size() > 1) node_.emplace(make_node(NodePlace::inner));
+    if (levels_.size() > 1) node_.emplace(make_node(NodePlace::inner));
 }
 
 void GlShaderTree::take_plan() {
@@ -158,111 +173,99 @@ void GlShaderTree::take_plan() {
 void GlShaderTree::set_view(const View& view, const Slabs& slabs) {
     view_ = view;
     slabs_ = slabs;
-    triangles_.clear();
-    leaf_draws_.clear();
-    set_visibility_order(plan_.bricks, source_.grid(), view, Order::front_to_back, bricks_);
-    add_leaves(0, shape_.root());
-    upload_vertices(triangles_, vertices_, vertex_array_);
+    bricks_.clear();
+    seen_ = {};
+    set_visibility_order(plan_.bricks, source_.grid(), view, Order::front_to_back, brick_order_);
+    const double thickness = (slabs.far - slabs.near) / slabs.count;
+    for (const std::size_t number : brick_order_) {
+        const IndexBox box = source_.drawn_box(number);
+        if (box.empty()) continue;
+        const DepthRange depth = depth_range(source_.grid(), box, view);
+        const double first = (depth.near - slabs.near) / thickness;
+        const double end = (depth.far - slabs.near) / thickness;
+        const PixelBox pixels = pixels_of(box, source_.grid(), view);
+        seen_ = bricks_.empty() ? pixels : seen_.joined(pixels);
+        bricks_.push_back({number, first - 1, end + 1});  // a slab more is far beyond rounding
+    }
     source_.set_view(*leaf_, view, slabs);
 }
 
-void GlShaderTree::add_leaves(int level, const SampleSpan& node) {
-    if (!shape_.is_marched(level, node)) {
-        for (int i = 0; i < shape_.factor(level); ++i) {
-            add_leaves(level + 1, child_span(node, i, shape_.factor(level)));
-        }
-        return;
-    }
-    for (const std::size_t brick : bricks_) {
-        const std::size_t first = triangles_.size();
-        const IndexBox box = source_.drawn_box(brick);
-        if (!box.empty()) {
-            append_span_polygon(*view_, source_.grid(), box, slabs_, node, triangles_);
-        }
-        leaf_draws_.push_back({brick, first, triangles_.size()});
-    }
-}
-
-void GlShaderTree::draw(gl::Framebuffer& target, Progress* progress) {
-    target_ = &target;
+void GlShaderTree::draw(Progress* progress) {
     progress_ = progress;
-    gl::api().Enable(GL_SCISSOR_TEST);
     for (int row = 0; row < height_; row += band_rows_) {
         band_ = {row, std::min(band_rows_, height_ - row)};
-        next_leaf_ = 0;
         evaluate(0, shape_.root(), 0);
     }
-    gl::api().Disable(GL_SCISSOR_TEST);
 }
 
-void GlShaderTree::bind_output(int level, int layer) {
+void GlShaderTree::read(Image& image) const {
+    picture_.read(image, packing_of(plan_) == PixelPacking::bytes ? 255 : 65535);
+}
+
+DrawnPixels GlShaderTree::drawn_of_band() const {
+    return {seen_.first_column, std::max(seen_.first_row, band_.first_row), seen_.end_column,
+            std::min(seen_.end_row, band_.first_row + band_.rows)};
+}
+
+void GlShaderTree::bind_output(gl::Program& program, int level, int place, const SampleSpan& node) {
     if (level == 0) {
-        target_->bind();
-        gl::api().Scissor(0, band_.first_row, width_, band_.rows);
+        picture_.bind(output_binding, band_.first_row, band_.rows);
+        program.set("output_begin", -band_.first_row * picture_.row_words());
+        program.set("output_row", picture_.row_words());
         return;
     }
-    const LevelImages& images = images_[static_cast<std::size_t>(level) - 1];
-    if (images.alpha) {
-        layer_.bind({&images.color, &*images.alpha}, layer);
-    } else {
-        layer_.bind({&images.color}, layer);
-    }
-    gl::api().Scissor(0, 0, width_, band_.rows);
-    layer_.clear();
+    levels_[static_cast<std::size_t>(level) - 1].bind_storage(output_binding);
+    program.set("output_begin",
+                static_cast<int>(place * node_words() - band_.first_row * node_row_words()));
+    program.set("output_row", static_cast<int>(node_row_words()));
+    program.set("node_share",
+                static_cast<float>(node.count) / static_cast<float>(shape_.samples()));
 }
 
-void GlShaderTree::evaluate(int level, const SampleSpan& node, int layer) {
+void GlShaderTree::evaluate(int level, const SampleSpan& node, int place) {
     if (shape_.is_marched(level, node)) {
-        draw_leaf(node, level, layer);
+        draw_leaf(node, level, place);
         return;
     }
     const int children = shape_.factor(level);
     for (int i = 0; i < children; ++i) evaluate(level + 1, child_span(node, i, children), i);
-    bind_output(level, layer);
-    const LevelImages& images = images_[static_cast<std::size_t>(level)];
-    images.color.bind(children_unit);
-    if (images.alpha) images.alpha->bind(children_alpha_unit);
     gl::Program& program = level == 0 ? *root_node_ : *node_;
+    bind_output(program, level, place, node);
+    levels_[static_cast<std::size_t>(level)].bind_storage(children_binding);
+    program.set("children_begin", static_cast<int>(-band_.first_row * node_row_words()));
+    program.set("children_row", static_cast<int>(node_row_words()));
+    program.set("child_words", static_cast<int>(node_words()));
     program.set("child_count", children);
     program.set("node_samples", node.count);
-    if (level > 0) {
-        program.set("node_share",
-                    static_cast<float>(node.count) / static_cast<float>(shape_.samples()));
-    }
-    program.set("first_row", level == 0 ? band_.first_row : 0);
-    gl::draw_full_screen(program, no_attributes_);
+    dispatch_pixels(program, drawn_of_band());
 }
 
-void GlShaderTree::draw_leaf(const SampleSpan& leaf, int level, int layer) {
-    gl::Program& program = *leaf_;
-    const float share = static_cast<float>(leaf.count) / static_cast<float>(shape_.samples());
-    program.set("leaf_slabs", static_cast<float>(leaf.count));
-    // Only the target has rows for all bands; other images have those of one band.
-    const bool whole_rows = level == 0 && !sum_;
-    const int first_row = whole_rows ? 0 : band_.first_row;
-    program.set("image_middle",
-                glm::vec2(0.5f * static_cast<float>(width_),
-                          0.5f * static_cast<float>(height_) - static_cast<float>(first_row)));
-    if (sum_) {
-        sum_->bind();
-        gl::api().Scissor(0, 0, width_, band_.rows);
-        sum_->clear(glm::vec4(0));
-        gl::api().Enable(GL_BLEND);
-        gl::api().BlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
-    } else {
-        bind_output(level, layer);
-        if (level > 0) program.set("node_share", share);
+// A brick is drawn in the slabs that may show some of it. The last part is always drawn, because it
+// writes the leaf.
+void GlShaderTree::set_leaf_parts(const SampleSpan& leaf) {
+    parts_.clear();
+    const int count = parts_of_leaf(plan_, leaf.count);
+    for (const SeenBrick& brick : bricks_) {
+        for (int i = 0; i < count; ++i) {
+            const SampleSpan slabs = child_span(leaf, i, count);
+            const bool last = &brick == &bricks_.back() && i + 1 == count;
+            if (last || (slabs.first < brick.end_slab && slabs.end() > brick.first_slab))
+                parts_.push_back({brick.number, slabs});
+        }
     }
-    gl::api().Viewport(0, -first_row, width_, height_);
-    march(program, next_leaf_++);
-    if (sum_) {
-        gl::api().Disable(GL_BLEND);
-        bind_output(level, layer);
-        sum_->color().bind(sum_unit);
-        if (level > 0) encode_->set("node_share", share);
-        encode_->set("first_row", level == 0 ? band_.first_row : 0);
-        gl::draw_full_screen(*encode_, no_attributes_);
+}
+
+void GlShaderTree::draw_leaf(const SampleSpan& leaf, int level, int place) {
+    set_leaf_parts(leaf);
+    bind_output(*leaf_, level, place, leaf);
+    source_.bind(*leaf_);
+    if (kept_) {
+        const int numbers = kept_numbers(plan_) * width_;
+        kept_->bind_storage(kept_binding);
+        leaf_->set("kept_begin", -band_.first_row * numbers);
+        leaf_->set("kept_row", numbers);
     }
+    for (const LeafPart& part : parts_) draw_part(part);
     if (progress_ != nullptr) {
         gl::api().Finish();
         progress_->advance();
@@ -270,17 +273,15 @@ void GlShaderTree::draw_leaf(const SampleSpan& leaf, int level, int layer) {
     check_interrupt();
 }
 
-void GlShaderTree::march(gl::Program& program, std::size_t leaf) {
-    source_.bind(program);
-    program.use();
-    vertex_array_.bind();
-    for (std::size_t i = leaf * bricks_.size(); i < (leaf + 1) * bricks_.size(); ++i) {
-        const LeafDraw& draw = leaf_draws_[i];
-        if (draw.end_vertex == draw.first_vertex) continue;
-        source_.set_brick(program, *view_, slabs_, draw.brick);
-        gl::api().DrawArrays(GL_TRIANGLES, static_cast<int>(draw.first_vertex),
-                             static_cast<int>(draw.end_vertex - draw.first_vertex));
+void GlShaderTree::draw_part(const LeafPart& part) {
+    if (kept_) {
+        leaf_->set("first_dispatch", &part == &parts_.front() ? 1 : 0);
+        leaf_->set("last_dispatch", &part == &parts_.back() ? 1 : 0);
     }
+    leaf_->set("first_slab", static_cast<float>(part.slabs.first));
+    leaf_->set("slab_count", static_cast<float>(part.slabs.count));
+    source_.set_brick(*leaf_, *view_, slabs_, part.brick);
+    dispatch_pixels(*leaf_, drawn_of_band());
 }
 
 }  // namespace lamina

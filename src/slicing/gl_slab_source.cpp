@@ -302,7 +302,6 @@ void GlSlabSource::set_real(gl::Program& program, const char* name, const glm::d
 
 void GlSlabSource::set_view(gl::Program& program, const View& view, const Slabs& slabs) const {
     const glm::vec2 size(static_cast<float>(view.width), static_cast<float>(view.height));
-    program.set("image_size", size);
     program.set("image_middle", 0.5f * size);
     program.set("normalisation",
                 glm::vec2(codes_.largest * codes_.scale, -codes_.base * codes_.scale));

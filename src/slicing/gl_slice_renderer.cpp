@@ -3,7 +3,8 @@
 //   1. Cut the boxes of the bricks, in visibility order, into slabs; each covers a convex polygon.
 //   2. Draw the polygons. For each pixel slab.frag computes the colour and opacity of its segment.
 //   3. Blend the fragments onto the target in the plan's order.
-// With a compositing tree, gl_shader_tree.h or GlFixedTree composites the pictures of the leaves.
+// With a tree of fixed-point nodes, GlFixedTree composites the pictures of the leaves. Trees in
+// float, the default, are drawn by compute shaders instead (gl_shader_tree.h).
 #include "slicing/gl_slice_renderer.h"
 
 #include <glad/gl.h>
@@ -102,6 +103,8 @@ void GlSlabPass::set_view(const View& view, const Slabs& slabs) {
     }
     upload_vertices(triangles_, vertices_, vertex_array_);
     source_.set_view(program_, view, slabs);
+    program_.set("image_size",
+                 glm::vec2(static_cast<float>(view.width), static_cast<float>(view.height)));
 }
 
 void GlSlabPass::draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) {
@@ -149,8 +152,9 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
                                  const Capabilities& capabilities, int width, int height,
                                  std::shared_ptr<const VolumeTextures> ready)
     : plan_(plan),
-      grid_(in_units(facts.grid, plan.unit)),
-      target_(gl::Texture::make_2d(color_format(plan), width, height)) {
+      grid_(in_units(facts.grid, plan.unit)) {
+    if (plan_.nothing_visible || !plan_.has_tree(NodeArithmetic::shader))
+        target_.emplace(gl::Texture::make_2d(color_format(plan), width, height));
     if (plan_.nothing_visible) {
         kept_ = std::move(ready);
         return;
@@ -189,8 +193,12 @@ int GlSliceRenderer::step_count() const {
 
 void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
     const View view = in_units(world_view, plan_.unit);
-    target_.bind();
-    target_.clear(glm::vec4(0));
+    if (shader_tree_) {
+        shader_tree_->clear();
+    } else {
+        target_->bind();
+        target_->clear(glm::vec4(0));
+    }
     geometry_ms_ = draw_ms_ = 0;
     if (!source_ || plan_.nothing_visible) return;
     Stage geometry("geometry");
@@ -202,9 +210,9 @@ void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
     geometry_ms_ = geometry.end();
     Stage drawing("draw");
     timeline_.begin("draw");
-    if (shader_tree_) shader_tree_->draw(target_, progress);
+    if (shader_tree_) shader_tree_->draw(progress);
     if (fixed_tree_) {
-        fixed_tree_->draw(*slabs_, target_, progress);
+        fixed_tree_->draw(*slabs_, *target_, progress);
     } else if (slabs_) {
         draw_straight(progress);
     }
@@ -222,7 +230,7 @@ void GlSliceRenderer::draw_straight(Progress* progress) {
         const bool front_to_back = plan_.order == Order::front_to_back;
         const SampleSpan part =
             child_span(all, front_to_back ? batch : plan_.batches - 1 - batch, plan_.batches);
-        if (part.count > 0) slabs_->draw(part, target_, 1);
+        if (part.count > 0) slabs_->draw(part, *target_, 1);
         gl::api().Finish();
         check_interrupt();
         if (progress != nullptr) progress->advance();
@@ -230,7 +238,11 @@ void GlSliceRenderer::draw_straight(Progress* progress) {
 }
 
 void GlSliceRenderer::read(Image& image) const {
-    target_.read_back(image);
+    if (shader_tree_) {
+        shader_tree_->read(image);
+        return;
+    }
+    target_->read_back(image);
     if (plan_.emulation) decode(image, plan_);
 }
 

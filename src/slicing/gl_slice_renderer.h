@@ -77,9 +77,9 @@ class GlSliceRenderer : public SliceRenderer {
 
     SlicePlan plan_;
     Grid grid_;
-    gl::Framebuffer target_;
-    // Empty if nothing is visible. Otherwise either shader_tree_ marches the slabs itself, or
-    // slabs_ are blended onto the target or are the leaves of fixed_tree_.
+    // Empty if nothing is visible, except for target_. Otherwise either shader_tree_ marches the
+    // slabs itself, or slabs_ are blended onto target_ or are the leaves of fixed_tree_.
+    std::optional<gl::Framebuffer> target_;
     std::optional<GlSlabSource> source_;
     std::optional<GlSlabPass> slabs_;
     std::optional<GlFixedTree> fixed_tree_;

@@ -303,11 +303,4 @@ void append_slab_polygons(const View& view, const Grid& grid, const IndexBox& bo
     if (starts != nullptr) starts->push_back(triangles.size());
 }
 
-void append_span_polygon(const View& view, const Grid& grid, const IndexBox& box,
-                         const Slabs& slabs, const SampleSpan& span,
-                         std::vector<SlabVertex>& triangles) {
-    SlabCutter cutter(view, grid, box);
-    append_fan(cutter.cut(slabs.depth(span.first), slabs.depth(span.end())), span.first, triangles);
-}
-
 }  // namespace lamina

@@ -89,9 +89,4 @@ void append_slab_polygons(const View& view, const Grid& grid, const IndexBox& bo
                           const Slabs& slabs, Order order, std::vector<SlabVertex>& triangles,
                           std::vector<std::size_t>* starts = nullptr);
 
-// Appends a polygon around several slabs; its corners carry the number of the first.
-void append_span_polygon(const View& view, const Grid& grid, const IndexBox& box,
-                         const Slabs& slabs, const SampleSpan& span,
-                         std::vector<SlabVertex>& triangles);
-
 }  // namespace lamina

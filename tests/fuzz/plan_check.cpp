@@ -21,11 +21,11 @@ std::array<Capabilities, 3> usual_capabilities() {
     native.renderer = "native";
     native.cpu = native.framebuffer_fetch = true;
     native.max_texture_size = 32768;
-    native.max_3d_texture_size = native.max_array_layers = any;
+    native.max_3d_texture_size = any;
     native.max_texture_bytes = any;
     mesa.renderer = "software";
     mesa.max_texture_size = 16384;
-    mesa.max_3d_texture_size = mesa.max_array_layers = 2048;
+    mesa.max_3d_texture_size = 2048;
     mesa.framebuffer_fetch = mesa.exact_float_filter = true;
     gpu = mesa;
     gpu.renderer = "GPU";

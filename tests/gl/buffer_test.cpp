@@ -103,8 +103,8 @@ TEST_F(BufferTest, FeedsVertexAttributesAndIndices) {
         out vec4 color;
         void main() { color = vec4(fragment_layer); }
     )"}});
-    const Program program(compose_shader("test.vert", {}, shaders),
-                          compose_shader("test.frag", {}, shaders));
+    const Program program(ShaderSources{compose_shader("test.vert", {}, shaders),
+                                        compose_shader("test.frag", {}, shaders)});
     const Framebuffer target(Texture::make_2d(TextureFormat::rgba32f, 6, 5));
     target.bind();
     array.bind();

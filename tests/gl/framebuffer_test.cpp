@@ -115,41 +115,5 @@ TEST_P(FramebufferTest, Float16OfOneChannelHoldsElevenBits) {
     }
 }
 
-// Returns the first channel of texel (x, y) of layer z.
-float first_channel(const Texture& array, int x, int y, int z) {
-    const std::vector<float> texels = array.read_rgba();
-    return texels[4 * static_cast<std::size_t>((z * array.height() + y) * array.width() + x)];
-}
-
-TEST_P(FramebufferTest, LayersOfArraysAreDrawnAndClearedOneByOne) {
-    Texture color = Texture::make_2d_array(TextureFormat::rgba8, 2, 3, 3);
-    Texture alpha = Texture::make_2d_array(TextureFormat::r16, 2, 3, 4);
-    color.upload({0, 0, 0, 2, 3, 3}, std::vector<std::uint8_t>(4 * 2 * 3 * 3, 51));
-    alpha.upload({0, 0, 0, 2, 3, 4}, std::vector<std::uint16_t>(2 * 3 * 4, 13107));  // 1/5
-    const Program program = full_screen_program(R"(#version 450 core
-        layout(location = 0) out vec4 first;
-        layout(location = 1) out vec4 second;
-        void main() { first = vec4(0.4); second = vec4(0.6); }
-    )");
-    LayerFramebuffer target;
-    target.bind({&color, &alpha}, 1);
-    draw_full_screen(program);
-    for (int layer = 0; layer < 3; ++layer) {  // expected: code / 255 and code / 65535 in float32
-        EXPECT_NEAR(first_channel(color, 1, 2, layer), layer == 1 ? 0.4f : 0.2f, 1e-7f);
-        EXPECT_NEAR(first_channel(alpha, 1, 2, layer), layer == 1 ? 0.6f : 0.2f, 1e-7f);
-    }
-    target.bind({&color}, 2);  // the second output is no longer stored
-    target.clear();
-    EXPECT_EQ(first_channel(color, 0, 0, 2), 0.0f);
-    draw_full_screen(program);
-    EXPECT_NEAR(first_channel(color, 0, 0, 2), 0.4f, 1e-7f);
-    EXPECT_NEAR(first_channel(alpha, 0, 0, 2), 0.2f, 1e-7f);
-    target.bind({&color, &alpha}, 0);  // and back
-    target.clear();
-    EXPECT_EQ(first_channel(color, 1, 0, 0), 0.0f);
-    EXPECT_EQ(first_channel(alpha, 1, 0, 0), 0.0f);
-    EXPECT_NEAR(first_channel(alpha, 1, 0, 1), 0.6f, 1e-7f);
-}
-
 }  // namespace
 }  // namespace lamina::gl

@@ -88,8 +88,8 @@ TEST_P(TextureTest, UploadsBoxesOfTables) {
     expect_sub_box<float>(Texture::make_1d(TextureFormat::rgba32f, 9), 4, 1);
     expect_sub_box<float>(Texture::make_2d(TextureFormat::rg32f, 7, 5), 2, 1);
     expect_sub_box<float>(Texture::make_2d(TextureFormat::rgba32f, 7, 5), 4, 1);
-    expect_sub_box<float>(Texture::make_2d_array(TextureFormat::rgba32f, 7, 5, 4), 4, 1);
-    expect_sub_box<float>(Texture::make_2d_array(TextureFormat::r32f, 7, 5, 4), 1, 1);
+    expect_sub_box<float>(Texture::make_3d(TextureFormat::rgba32f, 7, 5, 4), 4, 1);
+    expect_sub_box<float>(Texture::make_3d(TextureFormat::r32f, 7, 5, 4), 1, 1);
 }
 
 TEST_P(TextureTest, UploadsBoxesOfImages) {
@@ -97,7 +97,7 @@ TEST_P(TextureTest, UploadsBoxesOfImages) {
     expect_sub_box<std::uint16_t>(Texture::make_2d(TextureFormat::rgba16, 7, 5), 4, 1 / 65535.0);
     // The components are integers below 2^11, which half floats hold exactly.
     expect_sub_box<float>(Texture::make_2d(TextureFormat::rgba16f, 7, 5), 4, 1);
-    expect_sub_box<float>(Texture::make_2d_array(TextureFormat::r16f, 7, 5, 4), 1, 1);
+    expect_sub_box<float>(Texture::make_3d(TextureFormat::r16f, 7, 5, 4), 1, 1);
 }
 
 // The texture has more floats than read_rgba() reads at a time (2^24).

@@ -12,7 +12,6 @@ Capabilities native() {
     capabilities.renderer = "test";
     capabilities.cpu = true;
     capabilities.max_texture_size = capabilities.max_3d_texture_size = 16384;
-    capabilities.max_array_layers = 2048;
     return capabilities;
 }
 

@@ -21,9 +21,14 @@ namespace {
 constexpr int table_nodes = 256;
 
 struct Specialisation {
-    const char* vertex;
-    const char* fragment;
+    std::vector<const char*> shaders;  // a vertex and a fragment shader, or a compute shader
     gl::Defines defines;
+
+    gl::ShaderSources sources() const {
+        gl::ShaderSources composed;
+        for (const char* name : shaders) composed.push_back(gl::compose_shader(name, defines));
+        return composed;
+    }
 };
 // The specialisations, by text: different plans may need the same text, which is compiled once.
 struct Specialisations {
@@ -32,14 +37,14 @@ struct Specialisations {
     std::set<std::string> asked;
 };
 
-void add(Specialisations& all, const char* vertex, const char* fragment,
-         const gl::Defines& defines) {
-    std::string names = fmt::format("{} {}", vertex, fragment);
+void add(Specialisations& all, std::vector<const char*> shaders, const gl::Defines& defines) {
+    std::string names = fmt::format("{}", fmt::join(shaders, " "));
     for (const auto& [name, value] : defines.list) names += fmt::format("\n{} {}", name, value);
     if (!all.asked.insert(names).second) return;
-    const std::string text =
-        gl::compose_shader(vertex, defines).text + gl::compose_shader(fragment, defines).text;
-    all.by_text.try_emplace(text, Specialisation{vertex, fragment, defines});
+    const Specialisation added{std::move(shaders), defines};
+    std::string text;
+    for (const gl::ShaderSource& source : added.sources()) text += source.text;
+    all.by_text.try_emplace(text, added);
 }
 
 // Adds lit plans. Light depends on rays and samples, but not on how samples are stored.
@@ -230,19 +235,19 @@ void add_slabs(Specialisations& all) {
     for (const SlicePlan& plan : every_segment_plan()) {
         for (const int intervals : {1, 6}) {
             const gl::Defines segments = segment_defines(plan, intervals, table_nodes);
-            add(all, "slicing/slab.vert", "slicing/slab.frag", slab_defines(plan, segments));
+            add(all, {"slicing/slab.vert", "slicing/slab.frag"}, slab_defines(plan, segments));
         }
     }
     for (const bool lit : {false, true}) {
-        add(all, "slicing/slab.vert", "slicing/slab.frag",
+        add(all, {"slicing/slab.vert", "slicing/slab.frag"},
             slab_defines(exact_codes(lit), segment_defines(exact_codes(lit), 6, table_nodes)));
     }
     for (const SlicePlan& plan : every_code_plan()) {
         const gl::Defines segments = segment_defines(plan, 6, table_nodes);
-        add(all, "slicing/slab.vert", "slicing/slab.frag", slab_defines(plan, segments));
+        add(all, {"slicing/slab.vert", "slicing/slab.frag"}, slab_defines(plan, segments));
         if (!plan.has_tree(NodeArithmetic::fixed)) continue;
-        add(all, "gl/full_screen.vert", "slicing/swizzle.frag", swizzle_defines(plan));
-        add(all, "gl/full_screen.vert", "slicing/colorize.frag", colorize_defines(plan));
+        add(all, {"gl/full_screen.vert", "slicing/swizzle.frag"}, swizzle_defines(plan));
+        add(all, {"gl/full_screen.vert", "slicing/colorize.frag"}, colorize_defines(plan));
     }
 }
 
@@ -251,7 +256,7 @@ enum class LeafSegments { two, every };
 void add_nodes(Specialisations& all, LeafSegments leaves) {
     const auto add_leaf = [&](const SlicePlan& plan, int intervals, NodePlace place) {
         const gl::Defines segments = segment_defines(plan, intervals, table_nodes);
-        add(all, "slicing/slab.vert", "slicing/leaf.frag", leaf_defines(plan, segments, place));
+        add(all, {"slicing/leaf.comp"}, leaf_defines(plan, segments, place));
     };
     const bool every = leaves == LeafSegments::every;
     for (SlicePlan plan : every ? every_segment_plan() : std::vector<SlicePlan>()) {
@@ -267,8 +272,7 @@ void add_nodes(Specialisations& all, LeafSegments leaves) {
             for (const NodePlace place : {NodePlace::inner, NodePlace::root}) {
                 add_leaf(plan, 6, place);
                 const gl::Defines node = node_defines(plan, place);
-                add(all, "gl/full_screen.vert", "slicing/node.frag", node);
-                add(all, "gl/full_screen.vert", "slicing/encode.frag", node);
+                add(all, {"slicing/node.comp"}, node);
             }
         }
     }
@@ -278,7 +282,7 @@ void expect_to_compile(const Specialisations& all, bool framebuffer_fetch) {
     for (const auto& [text, program] : all.by_text) {
         const bool fetches = text.find("#define FRAMEBUFFER_FETCH") != std::string::npos;
         if (fetches && !framebuffer_fetch) continue;  // no plan asks for it in this context
-        EXPECT_NO_THROW(gl::Program(program.vertex, program.fragment, program.defines));
+        EXPECT_NO_THROW(gl::Program(program.sources()));
     }
 }
 
@@ -302,7 +306,7 @@ TEST(SlicingShaders, ExtensionsComeBeforeAllElse) {
     add_slabs(all);
     int extensions = 0;
     for (const auto& [ignored, program] : all.by_text) {
-        const std::string text = gl::compose_shader(program.fragment, program.defines).text;
+        const std::string text = program.sources().back().text;
         const std::size_t extension = text.find("#extension");
         if (extension == std::string::npos) continue;
         ++extensions;
@@ -327,9 +331,9 @@ TEST(SlicingShaders, EverySpecialisationPassesGlslang) {
     std::map<std::string, std::string> extensions;
     for (const auto& [text, program] : all.by_text) {
         if (text.find("#define FRAMEBUFFER_FETCH") != std::string::npos) continue;
-        for (const char* name : {program.vertex, program.fragment}) {
-            extensions.try_emplace(gl::compose_shader(name, program.defines).text,
-                                   std::filesystem::path(name).extension().string());
+        for (const gl::ShaderSource& source : program.sources()) {
+            extensions.try_emplace(source.text,
+                                   std::filesystem::path(source.name).extension().string());
         }
     }
     TemporaryFolder folder;
