@@ -32,3 +32,18 @@ uint under(uint color, uint alpha, uint above, uint above_alpha) {
     return above + divide_nearest(divide_nearest(color * alpha) * (LARGEST_CODE - above_alpha));
 #endif
 }
+
+// Returns the pixel `there` with a fragment composited behind it (FRONT_TO_BACK) or over it.
+// `color`: not associated.
+uvec4 composited(uvec3 color, uint alpha, uvec4 there) {
+    uvec4 source = uvec4(color, LARGEST_CODE);
+    uvec4 result;
+    for (int channel = 0; channel < 4; ++channel) {
+#ifdef FRONT_TO_BACK
+        result[channel] = under(source[channel], alpha, there[channel], there.a);
+#else
+        result[channel] = over(source[channel], alpha, there[channel]);
+#endif
+    }
+    return result;
+}

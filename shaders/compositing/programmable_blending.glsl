@@ -19,19 +19,7 @@ uvec4 stored_codes() { return uvec4(stored_pixel() * STORED + 0.5); }
 void store_codes(uvec4 codes) { pixel = vec4(codes) / STORED; }
 
 // Composites a colour, not associated.
-void composite(uvec3 color, uint alpha) {
-    uvec4 there = stored_codes();
-    uvec4 source = uvec4(color, LARGEST_CODE);
-    uvec4 result;
-    for (int channel = 0; channel < 4; ++channel) {
-#ifdef FRONT_TO_BACK
-        result[channel] = under(source[channel], alpha, there[channel], there.a);
-#else
-        result[channel] = over(source[channel], alpha, there[channel]);
-#endif
-    }
-    store_codes(result);
-}
+void composite(uvec3 color, uint alpha) { store_codes(composited(color, alpha, stored_codes())); }
 
 // Composites opacity alone, in the first channel.
 void composite_opacity(uint alpha) {

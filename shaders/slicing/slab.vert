@@ -7,17 +7,19 @@ layout(location = 1) in float slab_number;
 uniform vec2 image_size;
 
 flat out float slab;
-#ifdef DITHER_PERIOD
-uniform sampler2D dither_ranks;  // ranks of the slabs of a period, for alpha, then for colour; rows of 256
+#ifdef BITS
 flat out uvec2 ranks;
-uint rank_at(int place) { return uint(texelFetch(dither_ranks, ivec2(place & 255, place >> 8), 0).r); }
+#endif
+#ifdef DITHER_PERIOD
+#include "slicing/dither_ranks.glsl"
 #endif
 
 void main() {
     slab = slab_number;
 #ifdef DITHER_PERIOD
-    int place = int(slab_number) % DITHER_PERIOD;
-    ranks = uvec2(rank_at(place), rank_at(DITHER_PERIOD + place));
+    ranks = ranks_of(int(slab_number));
+#elif defined(BITS)
+    ranks = uvec2(0u);
 #endif
     vec2 device = 2.0 * position / image_size - 1.0;
     gl_Position = vec4(device.x, -device.y, 0.0, 1.0);

@@ -12,8 +12,8 @@ struct Capabilities {
     int threads = 0;       // of the cpu engine; they do not change the picture
     bool software = true;  // no GPU behind it
     bool cpu = false;      // the cpu engine, not OpenGL
-    int max_texture_size = 0;        // GL_MAX_TEXTURE_SIZE, also of the render target
-    int max_3d_texture_size = 0;     // GL_MAX_3D_TEXTURE_SIZE
+    int max_texture_size = 0;     // GL_MAX_TEXTURE_SIZE, also of the render target
+    int max_3d_texture_size = 0;  // GL_MAX_3D_TEXTURE_SIZE
     std::int64_t max_storage_bytes = std::int64_t{1} << 27;  // GL_MAX_SHADER_STORAGE_BLOCK_SIZE
     int subpixel_bits = 8;           // GL_SUBPIXEL_BITS: corners are rounded to a grid this fine
     bool framebuffer_fetch = false;  // GL_EXT_shader_framebuffer_fetch

@@ -138,7 +138,7 @@ bool may_be_quicker(const Scene& scene);
 // own, that of its tree, or the choice's. With exact segments all numbers are equally good.
 Scene with_classification(Scene scene, const ClassificationChoice& choice);
 
-// The next three functions respect a limit of llvmpipe: it silently ends the loops of a fragment, or
+// The next four functions respect a limit of llvmpipe: it silently ends the loops of a fragment, or
 // of a pixel's invocation of a compute shader, after 65535 iterations in all
 // (LP_MAX_TGSI_LOOP_ITERATIONS).
 
@@ -146,6 +146,11 @@ Scene with_classification(Scene scene, const ClassificationChoice& choice);
 // slabs are those of a ray that is cut into `slabs`, which must be at least least_exact_slabs().
 int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
                        int slabs);
+
+// Returns the largest number of slabs that one invocation can composite on codes, one by one. Exact
+// segments that several slabs need take their iterations for each.
+int most_coded_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
+                     int slabs);
 
 // Returns the number of slabs into which a ray must be cut so that one fragment can walk through
 // the cells of each.

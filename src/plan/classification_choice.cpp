@@ -204,6 +204,15 @@ int most_marched_slabs(const Scene& scene, const Facts& facts, const Capabilitie
     return std::max(1, (most_iterations - spare_iterations) / iterations_of_slab(scene, facts));
 }
 
+int most_coded_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities,
+                     int slabs) {
+    const bool exact = scene.slice.classification == Classification::exact;
+    if (is_unlimited(capabilities) || !exact || facts.occupied.empty() || facts.constant)
+        return most_marched_slabs(scene, facts, capabilities, slabs);
+    const double each = 1 + exact_iterations(scene, facts, 1.0 / slabs);
+    return std::max(1, static_cast<int>(most_iterations / each));
+}
+
 int least_exact_slabs(const Scene& scene, const Facts& facts, const Capabilities& capabilities) {
     if (is_unlimited(capabilities) || facts.occupied.empty()) return 1;
     if (facts.constant && !scene.lighting) return 1;

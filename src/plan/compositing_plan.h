@@ -15,11 +15,12 @@ void check_limits(const Scene& scene, const Capabilities& capabilities);
 
 // The part of the context that computes OVER on the target's pixels.
 enum class Blending {
-    native,   // the blending unit
-    fetch,    // the fragment program, which reads its pixel (GL_EXT_shader_framebuffer_fetch)
-    barrier,  // the fragment program, which reads the target as a texture, with a barrier between
-              // layers
-    tiles,    // the cpu engine, which holds the pixel
+    native,     // the blending unit
+    fetch,      // the fragment program, which reads its pixel (GL_EXT_shader_framebuffer_fetch)
+    barrier,    // the fragment program, which reads the target as a texture, with a barrier between
+                // layers
+    registers,  // the compute program, which holds the pixel
+    tiles,      // the cpu engine, which holds the pixel
 };
 
 // Returns how a context composites what its blending unit cannot.

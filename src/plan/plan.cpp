@@ -312,7 +312,8 @@ Blending programmable_blending(const Capabilities& capabilities) {
 }
 
 const char* name_of(Blending blending) {
-    return word_of(blending, {"blending_unit", "framebuffer_fetch", "texture_barrier", "tiles"});
+    return word_of(blending,
+                   {"blending_unit", "framebuffer_fetch", "texture_barrier", "registers", "tiles"});
 }
 
 Dither dither_of(const DitherSettings& settings, int slabs) {

@@ -94,10 +94,7 @@ struct SlicePlanner {
         if (classification == Classification::preintegrated) choose_integral(slice);
         slice.bricks = choose_bricks(slice.sampling, slice.float_texture);
 
-        if (scene.target == Target::emulated) {
-            slice.emulation = scene.emulate;
-            slice.blending = programmable_blending(capabilities);
-        }
+        if (scene.target == Target::emulated) slice.emulation = scene.emulate;
         const TreeQuestion question =
             tree_question(slice.slabs, slice.bricks.size(), slice.found_error());
         TreeChoice compositing = choose_compositing(question);
@@ -107,8 +104,11 @@ struct SlicePlanner {
         slice.rounding_bound =
             slice.error_bound ? slice.error_bound : rounding_bound(question, slice.tree);
         const bool marched = slice.has_tree(NodeArithmetic::shader);
+        if (slice.emulation) slice.blending = choose_blending(slice.tree.has_value());
         if (marched)
             slice.marched_slabs = most_marched_slabs(scene, facts, capabilities, slice.slabs);
+        if (slice.blending == Blending::registers)
+            slice.marched_slabs = most_coded_slabs(scene, facts, capabilities, slice.slabs);
         slice.dither = choose_dither(question.dither, marched);
 
         static_cast<ViewPlan&>(slice) = choose_view(marched);
@@ -291,6 +291,12 @@ struct SlicePlanner {
         if (!choice.tree) return choice;
         if (is_fixed_point(question.target)) choice.tree->largest_color = std::max(max_color, 1.0);
         return choice;
+    }
+
+    // Returns what computes OVER on codes: in OpenGL a compute program, if there is no tree.
+    Blending choose_blending(bool tree) const {
+        const bool computed = !capabilities.cpu && !tree;
+        return computed ? Blending::registers : programmable_blending(capabilities);
     }
 
     // `of_codes`: the dithering of a fixed-point target, if the scene asks for any.

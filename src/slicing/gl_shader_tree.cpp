@@ -8,7 +8,6 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "gl/api.h"
-#include "slicing/slab_geometry.h"
 
 namespace lamina {
 namespace {
@@ -17,8 +16,6 @@ constexpr unsigned output_binding = 0, children_binding = 1, kept_binding = 1;  
 
 // Limit in bytes on all nodes and sums; if the full height takes more, it is drawn in bands.
 constexpr std::int64_t memory_budget = std::int64_t{1} << 28;
-
-constexpr int tile_rows = 8;  // of shaders/gl/pixels.glsl
 
 // Tells whether codes have 16 bits beside colours of 8 bits.
 bool has_wide_code(const SlicePlan& plan) {
@@ -36,10 +33,6 @@ int kept_numbers(const SlicePlan& plan) {
     return plan.single_color ? 1 : 5;
 }
 
-int parts_of_leaf(const SlicePlan& plan, int slabs) {
-    return slabs / plan.marched_slabs + (slabs % plan.marched_slabs != 0 ? 1 : 0);
-}
-
 int largest_leaf(const TreeShape& shape) {
     SampleSpan node = shape.root();
     for (int level = 0; !shape.is_marched(level, node); ++level)
@@ -50,7 +43,7 @@ int largest_leaf(const TreeShape& shape) {
 // Tells whether leaves take several dispatches.
 bool keeps_sums(const SlicePlan& plan) {
     const TreeShape shape(plan.tree->factors, plan.slabs);
-    return plan.bricks.size() > 1 || parts_of_leaf(plan, largest_leaf(shape)) > 1;
+    return plan.bricks.size() > 1 || dispatches_of(plan, largest_leaf(shape)) > 1;
 }
 
 // Sets the definitions of shaders/slicing/node_output.glsl.
@@ -88,6 +81,7 @@ GlShaderTree::GlShaderTree(const GlSlabSource& source, const SlicePlan& plan,
       shape_(plan.tree->factors, plan.slabs),
       width_(width),
       height_(height),
+      march_(source, plan),
       picture_(packing_of(plan), width, height) {
     SampleSpan node = shape_.root();  // the largest node of its level
     std::vector<int> level_nodes;
@@ -139,12 +133,7 @@ void GlShaderTree::choose_bands(const Capabilities& capabilities,
     }
     const std::int64_t fitting = std::min(std::max<std::int64_t>(memory_budget / row_bytes, 1),
                                           capabilities.max_storage_bytes / block_bytes);
-    const int wanted_bands = (plan_.batches + leaf_count_ - 1) / leaf_count_;
-    const std::int64_t wanted = (height_ + wanted_bands - 1) / wanted_bands;
-    const std::int64_t whole_tiles = (wanted + tile_rows - 1) / tile_rows * tile_rows;
-    const bool has_tiles = fitting >= tile_rows;
-    band_rows_ = static_cast<int>(std::min({has_tiles ? fitting / tile_rows * tile_rows : fitting,
-                                            whole_tiles, std::int64_t{height_}}));
+    band_rows_ = rows_of_band(height_, (plan_.batches + leaf_count_ - 1) / leaf_count_, fitting);
 }
 
 void GlShaderTree::make_programs() {
@@ -171,23 +160,7 @@ void GlShaderTree::take_plan() {
 }
 
 void GlShaderTree::set_view(const View& view, const Slabs& slabs) {
-    view_ = view;
-    slabs_ = slabs;
-    bricks_.clear();
-    seen_ = {};
-    set_visibility_order(plan_.bricks, source_.grid(), view, Order::front_to_back, brick_order_);
-    const double thickness = (slabs.far - slabs.near) / slabs.count;
-    for (const std::size_t number : brick_order_) {
-        const IndexBox box = source_.drawn_box(number);
-        if (box.empty()) continue;
-        const DepthRange depth = depth_range(source_.grid(), box, view);
-        const double first = (depth.near - slabs.near) / thickness;
-        const double end = (depth.far - slabs.near) / thickness;
-        const PixelBox pixels = pixels_of(box, source_.grid(), view);
-        seen_ = bricks_.empty() ? pixels : seen_.joined(pixels);
-        bricks_.push_back({number, first - 1, end + 1});  // a slab more is far beyond rounding
-    }
-    source_.set_view(*leaf_, view, slabs);
+    march_.set_view(view, slabs, Order::front_to_back, *leaf_);
 }
 
 void GlShaderTree::draw(Progress* progress) {
@@ -200,11 +173,6 @@ void GlShaderTree::draw(Progress* progress) {
 
 void GlShaderTree::read(Image& image) const {
     picture_.read(image, packing_of(plan_) == PixelPacking::bytes ? 255 : 65535);
-}
-
-DrawnPixels GlShaderTree::drawn_of_band() const {
-    return {seen_.first_column, std::max(seen_.first_row, band_.first_row), seen_.end_column,
-            std::min(seen_.end_row, band_.first_row + band_.rows)};
 }
 
 void GlShaderTree::bind_output(gl::Program& program, int level, int place, const SampleSpan& node) {
@@ -237,51 +205,32 @@ void GlShaderTree::evaluate(int level, const SampleSpan& node, int place) {
     program.set("child_words", static_cast<int>(node_words()));
     program.set("child_count", children);
     program.set("node_samples", node.count);
-    dispatch_pixels(program, drawn_of_band());
-}
-
-// A brick is drawn in the slabs that may show some of it. The last part is always drawn, because it
-// writes the leaf.
-void GlShaderTree::set_leaf_parts(const SampleSpan& leaf) {
-    parts_.clear();
-    const int count = parts_of_leaf(plan_, leaf.count);
-    for (const SeenBrick& brick : bricks_) {
-        for (int i = 0; i < count; ++i) {
-            const SampleSpan slabs = child_span(leaf, i, count);
-            const bool last = &brick == &bricks_.back() && i + 1 == count;
-            if (last || (slabs.first < brick.end_slab && slabs.end() > brick.first_slab))
-                parts_.push_back({brick.number, slabs});
-        }
-    }
+    dispatch_pixels(program, march_.drawn_in(band_));
 }
 
 void GlShaderTree::draw_leaf(const SampleSpan& leaf, int level, int place) {
-    set_leaf_parts(leaf);
-    bind_output(*leaf_, level, place, leaf);
-    source_.bind(*leaf_);
+    gl::Program& program = *leaf_;
+    bind_output(program, level, place, leaf);
+    source_.bind(program);
     if (kept_) {
         const int numbers = kept_numbers(plan_) * width_;
         kept_->bind_storage(kept_binding);
-        leaf_->set("kept_begin", -band_.first_row * numbers);
-        leaf_->set("kept_row", numbers);
+        program.set("kept_begin", -band_.first_row * numbers);
+        program.set("kept_row", numbers);
     }
-    for (const LeafPart& part : parts_) draw_part(part);
+    const std::vector<GlMarch::Part>& parts = march_.parts_of(leaf);
+    for (const GlMarch::Part& part : parts) {
+        if (kept_) {
+            program.set("first_dispatch", &part == &parts.front() ? 1 : 0);
+            program.set("last_dispatch", &part == &parts.back() ? 1 : 0);
+        }
+        march_.draw(part, band_, program);
+    }
     if (progress_ != nullptr) {
         gl::api().Finish();
         progress_->advance();
     }
     check_interrupt();
-}
-
-void GlShaderTree::draw_part(const LeafPart& part) {
-    if (kept_) {
-        leaf_->set("first_dispatch", &part == &parts_.front() ? 1 : 0);
-        leaf_->set("last_dispatch", &part == &parts_.back() ? 1 : 0);
-    }
-    leaf_->set("first_slab", static_cast<float>(part.slabs.first));
-    leaf_->set("slab_count", static_cast<float>(part.slabs.count));
-    source_.set_brick(*leaf_, *view_, slabs_, part.brick);
-    dispatch_pixels(*leaf_, drawn_of_band());
 }
 
 }  // namespace lamina

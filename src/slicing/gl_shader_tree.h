@@ -11,6 +11,7 @@
 #include "gl/api.h"
 #include "gl/program.h"
 #include "plan/capabilities.h"
+#include "slicing/gl_march.h"
 #include "slicing/gl_slab_source.h"
 
 namespace lamina {
@@ -41,21 +42,6 @@ class GlShaderTree {
     void read(Image& image) const;
 
   private:
-    // A band of rows of the picture.
-    struct Band {
-        int first_row = 0, rows = 0;
-    };
-    // A brick, and the range of slabs in which it may show something.
-    struct SeenBrick {
-        std::size_t number;
-        double first_slab, end_slab;
-    };
-    // Slabs of a leaf that one dispatch draws, in one brick.
-    struct LeafPart {
-        std::size_t brick;
-        SampleSpan slabs;
-    };
-
     int count_leaves(int level, const SampleSpan& node) const;
     int bands() const { return (height_ + band_rows_ - 1) / band_rows_; }
     // Chooses the rows of a band: few enough for memory_budget, for the largest storage block and
@@ -68,11 +54,8 @@ class GlShaderTree {
 
     void evaluate(int level, const SampleSpan& node, int place);
     void draw_leaf(const SampleSpan& leaf, int level, int place);
-    void set_leaf_parts(const SampleSpan& leaf);
-    void draw_part(const LeafPart& part);
     // Makes the program write the node that is number `place` among its parent's children.
     void bind_output(gl::Program& program, int level, int place, const SampleSpan& node);
-    DrawnPixels drawn_of_band() const;
 
     const GlSlabSource& source_;
     const SlicePlan& plan_;
@@ -80,19 +63,13 @@ class GlShaderTree {
     int width_, height_, band_rows_ = 0, leaf_count_ = 0;
     gl::Defines defines_;  // of the leaves' program
     std::optional<gl::Program> leaf_, node_, root_node_;
+    GlMarch march_;
     GlPixels picture_;
     std::vector<gl::Buffer> levels_;  // by level: the children of one node, nearest first
     std::optional<gl::Buffer> kept_;  // what rays have passed between two dispatches of a leaf
-    // The following belong to the view and are kept from frame to frame.
-    std::optional<View> view_;
-    Slabs slabs_;
-    PixelBox seen_;                         // pixels in which something may show
-    std::vector<std::size_t> brick_order_;  // nearest first
-    std::vector<SeenBrick> bricks_;         // nearest first
-    std::vector<LeafPart> parts_;           // of the leaf that is being drawn
     // The following belong to the frame.
     Progress* progress_ = nullptr;
-    Band band_;
+    RowBand band_;
 };
 
 }  // namespace lamina

@@ -4,7 +4,8 @@
 //   2. Draw the polygons. For each pixel slab.frag computes the colour and opacity of its segment.
 //   3. Blend the fragments onto the target in the plan's order.
 // With a tree of fixed-point nodes, GlFixedTree composites the pictures of the leaves. Trees in
-// float, the default, are drawn by compute shaders instead (gl_shader_tree.h).
+// float, the default, and Target::emulated are drawn by compute shaders instead (gl_shader_tree.h,
+// gl_code_slabs.h).
 #include "slicing/gl_slice_renderer.h"
 
 #include <glad/gl.h>
@@ -21,20 +22,9 @@
 namespace lamina {
 namespace {
 
-constexpr int ranks_unit = GlSlabSource::first_free_unit;
-constexpr int ranks_width = 256;  // ranks in a row, as shaders/slicing/slab.vert reads them
-
-gl::Texture upload_ranks(const Dither& dither) {
-    std::vector<float> ranks;
-    for (const std::uint64_t seed : {std::uint64_t{dither.seed}, std::uint64_t{dither.seed} + 1}) {
-        for (const std::uint32_t rank : dither_ranks(dither.period, seed))
-            ranks.push_back(static_cast<float>(rank));
-    }
-    const int rows = (2 * dither.period + ranks_width - 1) / ranks_width;
-    ranks.resize(static_cast<std::size_t>(rows) * ranks_width);
-    gl::Texture texture = gl::Texture::make_2d(gl::TextureFormat::r32f, ranks_width, rows);
-    texture.upload({0, 0, 0, ranks_width, rows, 1}, std::span<const float>(ranks));
-    return texture;
+// Tells whether compute shaders draw the picture, and not the rasteriser.
+bool computes(const SlicePlan& plan) {
+    return plan.has_tree(NodeArithmetic::shader) || plan.blending == Blending::registers;
 }
 
 }  // namespace
@@ -83,10 +73,8 @@ void GlSlabPass::take_plan() {
 void GlSlabPass::set_up_program() {
     source_.bind(program_);
     if (plan_.blending == Blending::barrier) program_.set("target", target_unit);
-    if (plan_.emulation) {
-        program_.set("image_rows", image_height_);
-        program_.set("seed", static_cast<int>(plan_.emulation->seed));
-    }
+    if (plan_.emulation || plan_.dither) program_.set("image_rows", image_height_);
+    if (plan_.emulation) program_.set("seed", static_cast<int>(plan_.emulation->seed));
     if (plan_.dither) program_.set("dither_ranks", ranks_unit);
 }
 
@@ -151,9 +139,8 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
                                  const Facts& facts, const SlicePlan& plan,
                                  const Capabilities& capabilities, int width, int height,
                                  std::shared_ptr<const VolumeTextures> ready)
-    : plan_(plan),
-      grid_(in_units(facts.grid, plan.unit)) {
-    if (plan_.nothing_visible || !plan_.has_tree(NodeArithmetic::shader))
+    : plan_(plan), grid_(in_units(facts.grid, plan.unit)) {
+    if (plan_.nothing_visible || !computes(plan_))
         target_.emplace(gl::Texture::make_2d(color_format(plan), width, height));
     if (plan_.nothing_visible) {
         kept_ = std::move(ready);
@@ -163,6 +150,10 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
                     std::move(ready));
     if (plan_.has_tree(NodeArithmetic::shader)) {
         shader_tree_.emplace(*source_, plan_, capabilities, width, height);
+        return;
+    }
+    if (plan_.blending == Blending::registers) {
+        code_slabs_.emplace(*source_, plan_, capabilities, width, height);
         return;
     }
     slabs_.emplace(*source_, plan_, height);
@@ -182,20 +173,22 @@ bool GlSliceRenderer::try_switch_to(const Plan& plan) {
     source_->take_plan(plan_);
     if (slabs_) slabs_->take_plan();
     if (shader_tree_) shader_tree_->take_plan();
+    if (code_slabs_) code_slabs_->take_plan();
     return true;
 }
 
 int GlSliceRenderer::step_count() const {
     if (shader_tree_) return shader_tree_->step_count();
+    if (code_slabs_) return code_slabs_->step_count();
     if (fixed_tree_) return fixed_tree_->step_count();
     return slabs_ ? plan_.batches : 0;
 }
 
 void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
     const View view = in_units(world_view, plan_.unit);
-    if (shader_tree_) {
-        shader_tree_->clear();
-    } else {
+    if (shader_tree_) shader_tree_->clear();
+    if (code_slabs_) code_slabs_->clear();
+    if (target_) {
         target_->bind();
         target_->clear(glm::vec4(0));
     }
@@ -206,11 +199,13 @@ void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
     if (depth.far <= depth.near) return;
     const Slabs slabs{depth.near, depth.far, plan_.slabs};
     if (shader_tree_) shader_tree_->set_view(view, slabs);
+    if (code_slabs_) code_slabs_->set_view(view, slabs);
     if (slabs_) slabs_->set_view(view, slabs);
     geometry_ms_ = geometry.end();
     Stage drawing("draw");
     timeline_.begin("draw");
     if (shader_tree_) shader_tree_->draw(progress);
+    if (code_slabs_) code_slabs_->draw(progress);
     if (fixed_tree_) {
         fixed_tree_->draw(*slabs_, *target_, progress);
     } else if (slabs_) {
@@ -240,10 +235,12 @@ void GlSliceRenderer::draw_straight(Progress* progress) {
 void GlSliceRenderer::read(Image& image) const {
     if (shader_tree_) {
         shader_tree_->read(image);
-        return;
+    } else if (code_slabs_) {
+        code_slabs_->read(image);
+    } else {
+        target_->read_back(image);
+        if (plan_.emulation) decode(image, plan_);
     }
-    target_->read_back(image);
-    if (plan_.emulation) decode(image, plan_);
 }
 
 std::map<std::string, double> GlSliceRenderer::stages_ms() const {

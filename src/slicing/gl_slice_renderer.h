@@ -3,6 +3,7 @@
 
 #include "executors/gl_compositing.h"
 #include "gl/timeline.h"
+#include "slicing/gl_code_slabs.h"
 #include "slicing/gl_shader_tree.h"
 #include "slicing/slice_renderer.h"
 
@@ -77,13 +78,14 @@ class GlSliceRenderer : public SliceRenderer {
 
     SlicePlan plan_;
     Grid grid_;
-    // Empty if nothing is visible, except for target_. Otherwise either shader_tree_ marches the
-    // slabs itself, or slabs_ are blended onto target_ or are the leaves of fixed_tree_.
+    // Empty if nothing is visible, except for target_. Otherwise either shader_tree_ or code_slabs_
+    // march the slabs, or slabs_ are blended onto target_ or are the leaves of fixed_tree_.
     std::optional<gl::Framebuffer> target_;
     std::optional<GlSlabSource> source_;
     std::optional<GlSlabPass> slabs_;
     std::optional<GlFixedTree> fixed_tree_;
     std::optional<GlShaderTree> shader_tree_;
+    std::optional<GlCodeSlabs> code_slabs_;
     gl::Timeline timeline_;
     std::shared_ptr<const VolumeTextures> kept_;  // for another renderer, if nothing is visible
     double geometry_ms_ = 0, draw_ms_ = 0;        // of the last frame

@@ -239,12 +239,16 @@ void add_slabs(Specialisations& all) {
         }
     }
     for (const bool lit : {false, true}) {
-        add(all, {"slicing/slab.vert", "slicing/slab.frag"},
+        add(all, {"slicing/codes.comp"},
             slab_defines(exact_codes(lit), segment_defines(exact_codes(lit), 6, table_nodes)));
     }
     for (const SlicePlan& plan : every_code_plan()) {
-        const gl::Defines segments = segment_defines(plan, 6, table_nodes);
-        add(all, {"slicing/slab.vert", "slicing/slab.frag"}, slab_defines(plan, segments));
+        const gl::Defines defines = slab_defines(plan, segment_defines(plan, 6, table_nodes));
+        if (plan.emulation && !plan.tree) {
+            add(all, {"slicing/codes.comp"}, defines);
+            continue;
+        }
+        add(all, {"slicing/slab.vert", "slicing/slab.frag"}, defines);
         if (!plan.has_tree(NodeArithmetic::fixed)) continue;
         add(all, {"gl/full_screen.vert", "slicing/swizzle.frag"}, swizzle_defines(plan));
         add(all, {"gl/full_screen.vert", "slicing/colorize.frag"}, colorize_defines(plan));

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/client.h"
+#include "executors/gl_pixels.h"
+#include "gl/texture.h"
+#include "plan/capabilities.h"
+#include "slicing/gl_march.h"
+
+namespace lamina {
+
+// Returns the ranks of dithering as shaders/slicing/dither_ranks.glsl reads them.
+gl::Texture upload_ranks(const Dither& dither);
+inline constexpr int ranks_unit = GlSlabSource::first_free_unit;
+
+// Draws slabs for Target::emulated: a compute shader composites each ray's slabs on codes, in
+// registers. The picture is made in bands of rows.
+class GlCodeSlabs {
+  public:
+    // `source` and `plan` must outlive the object.
+    GlCodeSlabs(const GlSlabSource& source, const SlicePlan& plan, const Capabilities& capabilities,
+                int width, int height);
+
+    int step_count() const { return (height_ + band_rows_ - 1) / band_rows_; }  // of draw()
+    // Must be called after source and plan have changed in what belongs to one view alone.
+    void take_plan();
+    void set_view(const View& view, const Slabs& slabs);
+    void clear() { picture_.clear(); }
+    // Composites onto the picture. Ctrl-C ends it between bands.
+    void draw(Progress* progress);
+    void read(Image& image) const;
+
+  private:
+    gl::Defines wanted_defines() const;
+
+    const GlSlabSource& source_;
+    const SlicePlan& plan_;
+    int height_, band_rows_;
+    gl::Defines defines_;
+    gl::Program program_;
+    gl::Texture ranks_;  // of dithering
+    GlMarch march_;
+    GlPixels picture_;
+};
+
+}  // namespace lamina
