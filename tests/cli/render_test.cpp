@@ -130,6 +130,21 @@ TEST_F(Render, FramesDoNotChangeTheWrittenPicture) {
     }
 }
 
+TEST_F(Render, WarmUpDrawsFramesThatAreNotTimed) {
+    ASSERT_EQ(render({"-o", folder / "a.exr", "--frames", "2", "--warm-up", "0.001", "--stats",
+                      folder / "s.json", "--profile", folder / "p.json"})
+                  .exit_code,
+              0);
+    EXPECT_EQ(json::parse(read_bytes_of(folder / "s.json"))["frame_ms"]["n"], 2);
+    const json profile = json::parse(read_bytes_of(folder / "p.json"));
+    const auto count = [&](const char* name) {
+        return std::ranges::count_if(profile["traceEvents"],
+                                     [&](const json& event) { return event["name"] == name; });
+    };
+    EXPECT_EQ(count("frame"), 2);
+    EXPECT_GE(count("geometry"), 1 + 1 + 2);  // the picture, at least one to warm up, the timed
+}
+
 TEST_F(Render, ExplainSaysWhatIsLeftOut) {
     const ProgramResult result = render(
         {"--explain", "--set", "camera.projection=orthographic", "--set", "camera.height=2"});
@@ -156,6 +171,7 @@ TEST_F(Render, ExitsWith2ForMistakesOfUsage) {
         {"-o", folder / "a.exr", "--no-omit=nothing"},
         {"-o", folder / "a.exr", "--frames", "0"},
         {"-o", folder / "a.exr", "--turn-by", "10"},
+        {"-o", folder / "a.exr", "--warm-up", "1"},
         {"-o", folder / "a.exr", "--frames", "2", "--turn-by", "181"},
         {"-o", folder / "a.exr", "--stats", folder / "." / "a.exr"},
         {"-o", folder / "a.exr", "--stats", folder / "scene.json"},
