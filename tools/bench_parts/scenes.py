@@ -40,9 +40,9 @@ AGAINST_VTK = ["bonsai", "engine", "aneurism", "bluntfin", "combustor"]
 
 
 def kuhn(samples):
-    """Six tets a cell of a volume with this many samples along each axis."""
+    """Six tets a cell of a volume with this many samples along each axis; 119 make nearly ten millions."""
     scene = find("gaussians-mesh")
-    scene.arguments[:2] = ["--set", f"volume.size=[{samples},{samples},{samples}]"]
+    scene.arguments[:2] = ["--set", f"volume.size=[{samples},{samples},{samples}]", "--set", "mesh.max_tets=10000000"]
     scene.name = f"Kuhn's split of {samples}^3 samples"
     return scene
 

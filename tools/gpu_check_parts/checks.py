@@ -10,6 +10,8 @@ from bench_parts import processor, scenes
 from bench_parts.lamina import OutOfTime
 
 CONTEXTS = ("egl", "cpu")
+# Seconds of each part, 9 minutes in all: a machine with a GPU may be lent for 10.
+LIMITS = {"start": 20, "probe": 40, "selftest": 60, "pictures": 50, "frames": 370}
 
 
 def machine(lamina):
@@ -25,12 +27,20 @@ def machine(lamina):
 
 def renderer_of(lamina):
     """Returns the device that draws through EGL, or None: then the reason was printed."""
+    scene = scenes.find("gaussians")
     stats = lamina.folder / "egl.json"
+    command = [str(lamina.program), "render", str(scene.path), "-o", str(lamina.folder / "egl.exr"), "--context", "egl",
+               "--set", "image.width=64", "--set", "image.height=48", "--stats", str(stats), "--quiet"]
     try:
-        lamina.run("render", scenes.find("gaussians").path, "-o", lamina.folder / "egl.exr", "--context", "egl", "--size",
-                   "64x48", "--stats", stats, "--quiet")
-    except SystemExit as error:
-        print(f"gpu_check: EGL does not draw here: {error}")
+        done = subprocess.run(command, capture_output=True, text=True, timeout=LIMITS["start"])
+    except OSError as error:
+        print(f"gpu_check: {lamina.program}: {error.strerror}: build lamina or name it with --lamina")
+        return None
+    except subprocess.TimeoutExpired:
+        print(f"gpu_check: EGL does not draw here: no picture within {LIMITS['start']} s")
+        return None
+    if done.returncode != 0:
+        print(f"gpu_check: EGL does not draw here: {done.stderr.strip()}")
         return None
     return json.loads(stats.read_text())["context"]
 

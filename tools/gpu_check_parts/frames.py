@@ -4,15 +4,17 @@ import json
 import statistics
 
 from bench_parts import scenes
+from bench_parts.measured_bench import drawn_by
 from gpu_check_parts.checks import CONTEXTS, problem
 
 SIZES, QUICK_SIZES = ((800, 600), (1920, 1080)), ((96, 72), (160, 90))  # pixels
+TIMED, WARM_UP = {"egl": 20, "cpu": 5}, {"egl": 1, "cpu": 0.2}  # frames, and seconds before them
 OPENGL_ROW = 0  # of a profile: when OpenGL ran commands
 
 
 def thick_fog(folder, edge):
-    """A volume of bytes that is made as it is read. Of its cells nearly 90 % show something: those that exceed 30 do, at
-    1024^3 samples 89.9 %. No ray ends early: the deepest has an optical depth below 2.6, 1.5 over the box's diagonal."""
+    """A volume of bytes that is made as it is read, drawn cell by cell. Cells with a corner above 30 show something:
+    89.9 % of 1023^3. No ray ends early: the deepest has an optical depth below 2.6, 1.5 over the box's diagonal."""
     path = folder / "fog.json"
     path.write_text(json.dumps({
         "version": 1,
@@ -20,10 +22,10 @@ def thick_fog(folder, edge):
         "transfer_function": {"points": [{"value": 0, "color": [0, 0.1, 0.3], "extinction": 0},
                                          {"value": 30, "color": [0, 0.1, 0.3], "extinction": 0},
                                          {"value": 255, "color": [1, 0.6, 0.2], "extinction": 1.5}]},
-        "camera": {"projection": "perspective", "eye": [1.9, -1.1, 1.4], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1],
+        "camera": {"projection": "perspective", "eye": [2.3, -1.5, 1.7], "center": [0.5, 0.5, 0.5], "up": [0, 0, 1],
                    "fov_y": 35},
         "image": {"width": 800, "height": 600, "background": [0, 0, 0]},
-        "render": {"method": "slice", "target": "float32"}}))
+        "render": {"method": "slice", "target": "float32", "slice": {"classification": "exact"}}}))
     return scenes.BenchScene(f"{edge}^3 bytes", path)
 
 
@@ -37,8 +39,10 @@ def timed(folder, quick):
 
 
 def stages(profile):
-    """Milliseconds of each stage of a frame, by name: medians of the frames. OpenGL's own begin with "OpenGL"."""
+    """Milliseconds of each stage of a frame, by name, in the order in which they begin: medians of the frames. Names of
+    OpenGL's own begin with "OpenGL"."""
     spans = [event for event in json.loads(profile.read_text())["traceEvents"] if event.get("ph") == "X"]
+    spans.sort(key=lambda span: span["ts"])
     frames = [span for span in spans if span["name"] == "frame"]
     sums = {}
     for number, frame in enumerate(frames):
@@ -51,14 +55,15 @@ def stages(profile):
     return {name: statistics.median(each) for name, each in sums.items()}
 
 
-def by_context(lamina, scene, arguments, quick):
+def by_context(lamina, scene, size, context, quick):
     """Stages come from a run of their own, because a profile waits for OpenGL's clock in each frame."""
-    arguments = [*scene.arguments, *arguments, "--turn-by", 3]
-    frames = lamina.frames(scene.path, [*arguments, "--warm-up", 0.01 if quick else 1], 2 if quick else 20)
+    arguments = [*scene.arguments, *size, "--context", context, "--turn-by", 3]
+    warm_up = [] if quick else ["--warm-up", WARM_UP[context]]
+    frames = lamina.frames(scene.path, [*arguments, *warm_up], 2 if quick else TIMED[context])
     profile = lamina.folder / "profile.json"
-    lamina.frames(scene.path, [*arguments, "--profile", profile], 3)
+    lamina.frames(scene.path, [*arguments, "--profile", profile], 2)
     return {"frame_ms": frames["frame_ms"], "first_picture_ms": frames["first_picture_ms"],
-            "tets": frames["counts"].get("tets", 0), "stages_ms": stages(profile)}
+            "drawn_by": drawn_by(frames["plan"]), "counts": frames["counts"], "stages_ms": stages(profile)}
 
 
 def check(lamina, quick):
@@ -73,7 +78,7 @@ def check(lamina, quick):
             size = ["--size", f"{width}x{height}"]
             try:
                 for context in CONTEXTS:
-                    result[context] = by_context(lamina, scene, [*size, "--context", context], quick)
+                    result[context] = by_context(lamina, scene, size, context, quick)
             except SystemExit as error:
                 result.update(problem(error))
     return results
