@@ -43,7 +43,7 @@ def stages(profile):
     OpenGL's own begin with "OpenGL"."""
     spans = [event for event in json.loads(profile.read_text())["traceEvents"] if event.get("ph") == "X"]
     spans.sort(key=lambda span: span["ts"])
-    frames = [span for span in spans if span["name"] == "frame"]
+    frames = [span for span in spans if span["name"] == "frame"][1:]  # the first is the picture
     sums = {}
     for number, frame in enumerate(frames):
         begin, end = frame["ts"], frame["ts"] + frame["dur"]
