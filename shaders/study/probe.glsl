@@ -2,7 +2,8 @@
 // The kernel of the probe (tools/lamina/selftest/shader_probe.h), which a fragment and a compute
 // shader include: one number for a pixel, from many rounds of one kind of work. KERNEL says which:
 // cubics of cells whose corners are in registers, or the corners of the cells along a ray, fetched
-// as texels of a 3D texture, by gathers of four from a 2D array, or as bytes of a buffer's words.
+// as texels of a 3D texture, by gathers of four from a 2D texture (there are none from 3D ones), or as
+// bytes of a buffer's words.
 // Every number is a small multiple of 2^-9, so sums are exact in any order and on any machine.
 #define KERNEL_ARITHMETIC 0
 #define KERNEL_TEXELS 1
@@ -31,12 +32,13 @@ uniform ivec2 pixel_step;   // from one pixel to the next, in units of 2^-12 vox
 #if KERNEL == KERNEL_TEXELS
 Corners corners_of(ivec3 cell) { return fetch_corners(cell); }
 #elif KERNEL == KERNEL_GATHERS
-uniform sampler2DArray slices;
+uniform sampler2D slices;   // the volume's slices side by side, 16 in a row
 
-// Gathers the texels at (x, y + 1), (x + 1, y + 1), (x + 1, y) and (x, y).
+// Gathers the texels at (x, y + 1), (x + 1, y + 1), (x + 1, y) and (x, y) of a slice.
 vec4 gather_codes(ivec3 cell) {
-    vec3 between = vec3(vec2(cell.xy + 1) / (last_sample.xy + 1.0), cell.z);
-    return round(textureGather(slices, between) * largest_code);
+    ivec2 size = ivec2(last_sample.xy) + 1;
+    ivec2 corner = ivec2(cell.z & 15, cell.z >> 4) * size + cell.xy + 1;
+    return round(textureGather(slices, vec2(corner) / vec2(size * 16)) * largest_code);
 }
 
 Corners corners_of(ivec3 cell) {

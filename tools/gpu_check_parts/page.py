@@ -8,7 +8,8 @@ ALLOWED = 1.0  # render.max_error by default, in 1/255
 
 STYLE = """body { font: 16px/1.5 system-ui, sans-serif; max-width: 60rem; margin: 2rem auto; padding: 0 1rem }
 .wide { overflow-x: auto } table { border-collapse: collapse } td, th { padding: .2rem .7rem; text-align: right }
-td:first-child, th:first-child { text-align: left } tr { border-bottom: 1px solid #8886 } .bad { color: #d33 }
+td:first-child, th:first-child, td:nth-child(n+9) { text-align: left } td:nth-child(n+9) { min-width: 18rem }
+td:nth-child(-n+3) { white-space: nowrap } tr { border-bottom: 1px solid #8886 } .bad { color: #d33 }
 @media (prefers-color-scheme: dark) { body { background: #131416; color: #ddd } }"""
 
 
@@ -87,7 +88,7 @@ def html_of(report):
 {table(["", ""], [row for row in about if row[1]])}
 <h2>Probe</h2>
 <p>One kernel as a fragment and as a compute shader, {probe.get("width")} x {probe.get("height")} pixels: cubics of cells in
-registers (arithmetic), or the eight corners of the cells along rays as texels of a 3D texture, gathers from a 2D array, or
+registers (arithmetic), or the eight corners of the cells along rays as texels of a 3D texture, gathers from a 2D texture, or
 words of a buffer. Medians in ms; "times as fast" as the kernel's fragment shader, by OpenGL's clock.</p>
 {table(["kernel", "shader", "workgroup", "order", "OpenGL's clock", "wall clock", "times as fast"],
        map(way_row, probe.get("ways", [])))}

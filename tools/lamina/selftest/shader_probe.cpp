@@ -11,7 +11,8 @@
 namespace lamina::selftest {
 namespace {
 
-constexpr int tile = 16;  // pixels of a tile's edge in shaders/study/probe.comp
+// Pixels of a tile's edge in shaders/study/probe.comp, and slices in a row in probe.glsl.
+constexpr int tile = 16, slices_in_a_row = 16;
 constexpr int volume_unit = 0, slices_unit = 1;
 constexpr unsigned words_binding = 0, results_binding = 1;
 
@@ -60,13 +61,18 @@ ShaderProbe::ShaderProbe(int width, int height)
     : width_(width),
       height_(height),
       volume_(gl::Texture::make_3d(gl::TextureFormat::r8, edge, edge, edge)),
-      slices_(gl::Texture::make_2d_array(gl::TextureFormat::r8, edge, edge, edge)),
+      slices_(gl::Texture::make_2d(gl::TextureFormat::r8, slices_in_a_row * edge,
+                                   edge / slices_in_a_row * edge)),
       results_(sizeof(float) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       target_(gl::Texture::make_2d(gl::TextureFormat::r32f, width, height)) {
     const std::vector<std::uint8_t> bytes = samples();
-    const gl::TexelBox all{0, 0, 0, edge, edge, edge};
-    volume_.upload(all, bytes);
-    slices_.upload(all, bytes);
+    volume_.upload({0, 0, 0, edge, edge, edge}, bytes);
+    constexpr std::size_t slice = std::size_t{edge} * edge;
+    for (int z = 0; z < edge; ++z) {
+        const gl::TexelBox box{
+            z % slices_in_a_row * edge, z / slices_in_a_row * edge, 0, edge, edge, 1};
+        slices_.upload(box, std::span(bytes).subspan(static_cast<std::size_t>(z) * slice, slice));
+    }
     words_ = gl::Buffer(std::span(bytes));
 }
 

@@ -16,7 +16,7 @@
 namespace lamina::selftest {
 
 // Work of the kernel (shaders/study/probe.glsl, in its order): cubics of cells in registers, or the
-// eight corners of cells along rays, from a 3D texture, a 2D array or a buffer.
+// eight corners of cells along rays, from a 3D texture, a 2D texture or a buffer.
 enum class ProbeKernel { arithmetic, texels, gathers, words };
 const char* name_of(ProbeKernel kernel);
 
