@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/blobs_scene.h"
@@ -130,6 +131,24 @@ TEST_F(Render, FramesDoNotChangeTheWrittenPicture) {
     }
 }
 
+TEST_F(Render, WarmUpDrawsFramesThatAreNotTimed) {
+    const auto spans = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> options{
+            "-o",      folder / "a.exr",  "--profile", folder / "p.json",
+            "--stats", folder / "s.json", "--frames",  "2"};
+        options.insert(options.end(), more.begin(), more.end());
+        EXPECT_EQ(render(options).exit_code, 0);
+        EXPECT_EQ(json::parse(read_bytes_of(folder / "s.json"))["frame_ms"]["n"], 2);
+        std::map<std::string, int> counts;
+        const json profile = json::parse(read_bytes_of(folder / "p.json"));
+        for (const json& event : profile["traceEvents"]) ++counts[event["name"]];
+        return counts;
+    };
+    std::map<std::string, int> cold = spans({}), warm = spans({"--warm-up", "0.001"});
+    EXPECT_EQ(warm["frame"], cold["frame"]);
+    EXPECT_GT(warm["geometry"], cold["geometry"]);
+}
+
 TEST_F(Render, ExplainSaysWhatIsLeftOut) {
     const ProgramResult result = render(
         {"--explain", "--set", "camera.projection=orthographic", "--set", "camera.height=2"});
@@ -156,6 +175,7 @@ TEST_F(Render, ExitsWith2ForMistakesOfUsage) {
         {"-o", folder / "a.exr", "--no-omit=nothing"},
         {"-o", folder / "a.exr", "--frames", "0"},
         {"-o", folder / "a.exr", "--turn-by", "10"},
+        {"-o", folder / "a.exr", "--warm-up", "1"},
         {"-o", folder / "a.exr", "--frames", "2", "--turn-by", "181"},
         {"-o", folder / "a.exr", "--stats", folder / "." / "a.exr"},
         {"-o", folder / "a.exr", "--stats", folder / "scene.json"},

@@ -78,6 +78,33 @@ TEST(Selftest, FindsAMutatedShader) {
     EXPECT_GE(failed, 40u);  // most of 68; the others show nothing
 }
 
+TEST(Selftest, ProbesShadersInPlaceOfCases) {
+    const TemporaryFolder folder;
+    const std::string out = (folder / "out").string();
+    const ProgramResult result =
+        lamina_run({"selftest", "--probe", "20x10", "--context", "osmesa", "-o", out, "--quiet"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const nlohmann::json report =
+        nlohmann::json::parse(read_bytes_of(folder / "out" / "probe.json"));
+    EXPECT_EQ(report["width"], 20);
+    EXPECT_EQ(report["height"], 10);
+    EXPECT_EQ(report["context"].get<std::string>().rfind("OSMesa", 0), 0u);
+    EXPECT_NE(result.out.find("arithmetic  compute"), std::string::npos) << result.out;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out" / "selftest.json"));
+    const std::vector<std::vector<std::string>> mistakes{
+        {"--probe", "20", "--context", "osmesa"},
+        {"--probe", "0x10", "--context", "osmesa"},
+        {"--probe", "20x10", "--context", "cpu"},
+        {"--probe", "20x10", "--context", "osmesa", "--group", "optics"}};
+    for (std::vector<std::string> arguments : mistakes) {
+        arguments.insert(arguments.begin(), {"selftest", "-o", (folder / "no").string()});
+        const ProgramResult refused = lamina_run(arguments);
+        EXPECT_EQ(refused.exit_code, 2) << refused.err;
+        EXPECT_NE(refused.err.find("--probe"), std::string::npos) << refused.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "no"));
+    }
+}
+
 TEST(Selftest, RefusesUnknownGroups) {
     const TemporaryFolder folder;
     const ProgramResult group =

@@ -5,21 +5,32 @@ import math
 import pathlib
 import shlex
 import subprocess
+import time
+
+
+class OutOfTime(SystemExit):
+    """The deadline came before or while a program ran."""
 
 
 class Lamina:
+    deadline = None  # by time.monotonic(): runs end then; None: never
+
     def __init__(self, program, folder):
         """folder: for pictures and statistics; the caller removes it."""
         self.program = program
         self.folder = pathlib.Path(folder)
 
-    def run(self, *arguments):
+    def run(self, *arguments, accepted=(0,)):
+        """What is printed; ends the caller at an exit code that is not accepted."""
         command = [str(self.program), *map(str, arguments)]
+        left = None if self.deadline is None else max(0, self.deadline - time.monotonic())
         try:
-            done = subprocess.run(command, capture_output=True, text=True)
+            done = subprocess.run(command, capture_output=True, text=True, timeout=left)
+        except subprocess.TimeoutExpired:
+            raise OutOfTime(f"out of time: {shlex.join(command)}")
         except OSError as error:
             raise SystemExit(f"bench: {self.program}: {error.strerror}; build lamina or name it with --lamina")
-        if done.returncode != 0:
+        if done.returncode not in accepted:
             raise SystemExit(f"bench: {shlex.join(command)}: {done.stderr.strip()}")
         return done.stdout
 

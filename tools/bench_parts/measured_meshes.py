@@ -9,14 +9,6 @@ from bench_parts.lamina import Lamina
 from bench_parts.measured_bench import FULL, HALF, digits, ms, one_core, slabs, table, times
 
 
-def kuhn(samples):
-    """Six tets a cell of a volume with this many samples along each axis."""
-    scene = scenes.find("gaussians-mesh")
-    scene.arguments[:2] = ["--set", f"volume.size=[{samples},{samples},{samples}]"]
-    scene.name = f"Kuhn's split of {samples}^3 samples"
-    return scene
-
-
 def spans(bench, scene):
     """Milliseconds by name of a profile's spans, summed over threads, and the number of its frames."""
     profile = pathlib.Path(bench.folder) / "profile.json"
@@ -31,7 +23,7 @@ def spans(bench, scene):
 def tetrahedra(bench):
     """Meshes: fragments a second, and the shares of the stages of a frame on one core."""
     rows = []
-    for scene in [*map(scenes.find, ["torso", "bluntfin", "combustor"]), kuhn(32)]:
+    for scene in [*map(scenes.find, ["torso", "bluntfin", "combustor"]), scenes.kuhn(32)]:
         way = bench.ways(scene, {"cpu": []})["cpu"]
         with one_core():
             found = spans(bench, scene)
@@ -48,7 +40,7 @@ def growth(bench):
     """Cost by the number of tets, of one picture."""
     rows = []
     for samples in (8, 12, 16) if bench.quick else (16, 24, 32, 48, 70):
-        scene = kuhn(samples)
+        scene = scenes.kuhn(samples)
         way = bench.ways(scene, {"cpu": []})["cpu"]
         tets = way["stats"]["counts"]["tets"]
         rows.append([f"{tets:,}", f"{way['stats']['fragments'] / 1e6:.1f}", ms(way["ms"]),

@@ -39,6 +39,14 @@ STANDARD["neghip-mesh"] = ("neghip", KUHN)
 AGAINST_VTK = ["bonsai", "engine", "aneurism", "bluntfin", "combustor"]
 
 
+def kuhn(samples):
+    """Six tets a cell of a volume with this many samples along each axis; 119 make nearly ten millions."""
+    scene = find("gaussians-mesh")
+    scene.arguments[:2] = ["--set", f"volume.size=[{samples},{samples},{samples}]", "--set", "mesh.max_tets=10000000"]
+    scene.name = f"Kuhn's split of {samples}^3 samples"
+    return scene
+
+
 def find(name):
     """A scene of the set by its name, or a scene file."""
     if name in STANDARD:

@@ -40,7 +40,7 @@ def write(root, portable, output):
     output.parent.mkdir(parents=True, exist_ok=True)
     with tarfile.open(output, "w:gz") as archive:
         add_portable(archive, portable)
-        for name in ("tools/gpu_check", "tools/bench", "data/scenes"):
+        for name in ("tools/gpu_check", "data/scenes"):
             archive.add(root / name, f"{NAME}/{name}")
         for folder in ("gpu_check_parts", "bench_parts"):
             for file in sorted((root / "tools" / folder).glob("*.py")):

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
@@ -12,6 +11,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/arithmetic.h"
@@ -39,7 +39,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::array methods{OrderMethod::mpvo, OrderMethod::exact, OrderMethod::centroid,
                              OrderMethod::none};
 constexpr int timed_sorts = 3;  // for each view, after a sort that is not timed
-constexpr int most_eyes = 10'000, most_pixels = 16'384;
+constexpr int most_eyes = 10'000;
 
 struct OrderOptions {
     std::string input;
@@ -47,24 +47,6 @@ struct OrderOptions {
     std::string size = "128x128";
     bool json = false, quiet = false;
 };
-
-struct Size {
-    int width, height;
-};
-
-Size parse_view_size(const std::string& text) {
-    Size size{};
-    const char* const end = text.data() + text.size();
-    const auto [middle, first] = std::from_chars(text.data(), end, size.width);
-    if (first == std::errc{} && middle != end && *middle == 'x') {
-        const auto [stop, second] = std::from_chars(middle + 1, end, size.height);
-        if (second == std::errc{} && stop == end && std::min(size.width, size.height) > 0 &&
-            std::max(size.width, size.height) <= most_pixels)
-            return size;
-    }
-    throw UsageError(fmt::format("--size {}: expected WxH, 1 to {} each, for example 128x128", text,
-                                 most_pixels));
-}
 
 struct Input {
     TetMesh mesh;
@@ -155,7 +137,7 @@ void time_sort(VisibilityOrder& order, const TetMesh& mesh, const Eye& eye, Outc
 
 // For each view, times the sorts of every method, and tells on the ray of each pixel whether the
 // tets on it are drawn in the right order (judge_pixels()).
-std::vector<Outcome> measure_orders(const Input& input, int eyes, const Size& size) {
+std::vector<Outcome> measure_orders(const Input& input, int eyes, const std::pair<int, int>& size) {
     const FaceTree open_faces(input.mesh, input.mesh.open_faces());
     std::vector<std::unique_ptr<VisibilityOrder>> orders;
     std::vector<const VisibilityOrder*> judged;
@@ -164,11 +146,11 @@ std::vector<Outcome> measure_orders(const Input& input, int eyes, const Size& si
         judged.push_back(orders.back().get());
     }
     std::vector<Outcome> outcomes(methods.size());
-    Progress progress("ordering", std::int64_t{eyes} * size.height);
+    Progress progress("ordering", std::int64_t{eyes} * size.second);
     for (int index = 0; index < eyes; ++index) {
         const bool own = index == 0 && input.camera;
-        const View view(own ? *input.camera : camera_of(index, input.mesh), size.width,
-                        size.height);
+        const View view(own ? *input.camera : camera_of(index, input.mesh), size.first,
+                        size.second);
         for (std::size_t i = 0; i < orders.size(); ++i)
             time_sort(*orders[i], input.mesh, eye_of(view), outcomes[i]);
         const std::vector<OrderPixels> found =
@@ -242,7 +224,7 @@ void run(const OrderOptions& options) {
         throw UsageError(
             fmt::format("--eyes {}: expected a number from 1 to {}", options.eyes, most_eyes));
     }
-    const Size size = parse_view_size(options.size);
+    const auto size = pixels_of("--size", options.size);
     const Input input = load(options.input);
     const std::vector<Outcome> outcomes = measure_orders(input, options.eyes, size);
     (options.json ? print_json : print_table)(input, outcomes, options.eyes);

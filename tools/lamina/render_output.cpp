@@ -29,6 +29,7 @@ class SinglePicture : public RenderOutput {
         : name_(options.piped() ? "stdout" : options.output),
           frames_(options.frames),
           degrees_(options.turn_by.value_or(degrees_per_frame)),
+          warm_up_(options.warm_up),
           scene_(scene),
           picture_(options.output, picture_format(options.output, options.format)) {}
 
@@ -49,18 +50,22 @@ class SinglePicture : public RenderOutput {
     }
 
   private:
-    // Times frames_ frames, between which the camera turns.
+    // Times frames_ frames, between which the camera turns, after warm_up_ seconds of others.
     void time_frames(Pipeline& pipeline, RunStatistics& run) const {
         run.frames_ms.clear();  // the scene's own frame was the warm-up
         const Camera own = *pipeline.scene().camera;
+        int turns = 0;
+        const auto draw_next = [&] {
+            check_interrupt();
+            pipeline.set_camera(turned(own, degrees_ * ++turns));
+            pipeline.draw_frame();
+        };
+        for (const Stopwatch warming; warming.seconds() < warm_up_;) draw_next();
         Progress progress("timing frames", frames_);
         for (int i = 1; i <= frames_; ++i) {
-            check_interrupt();
-            const Camera camera = turned(own, degrees_ * i);
             Stage frame("frame");
             frame.count("frame", i);
-            pipeline.set_camera(camera);
-            pipeline.draw_frame();
+            draw_next();
             run.frames_ms.push_back(frame.end());
             progress.advance();
         }
@@ -68,7 +73,7 @@ class SinglePicture : public RenderOutput {
 
     std::string name_;
     int frames_;
-    double degrees_;
+    double degrees_, warm_up_;
     OutputScene scene_;
     PictureFile picture_;
 };
@@ -116,6 +121,7 @@ void OutputOptions::check() const {
     if (force && views == 0 && !time)
         throw UsageError("--force: expected --turntable N or --time, too");
     if (turn_by && frames == 0) throw UsageError("--turn-by: expected --frames N, too");
+    if (warm_up > 0 && frames == 0) throw UsageError("--warm-up: expected --frames N, too");
     if (!format.empty() && output.empty()) throw UsageError("--format: expected -o -, too");
     if (views > 0) {
         Turntable::check(*this);
@@ -144,6 +150,11 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
                                 degrees_per_frame))
         ->check(CLI::Range(-180.0, 180.0))
         ->option_text("DEGREES");
+    verb.add_option("--warm-up", options.warm_up,
+                    "With --frames: first draw frames for this long that are not timed, until a "
+                    "GPU's clock has risen")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->option_text("SECONDS");
     verb.add_option("--turntable", options.views,
                     "Write this many views around the camera's centre, from -o out_%04d.png; views "
                     "that are there from an earlier run of the same scene are kept")

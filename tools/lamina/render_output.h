@@ -60,6 +60,7 @@ struct OutputOptions {
     std::string format;               // --format
     int frames = 0;                   // --frames; 0: none
     std::optional<double> turn_by;    // --turn-by
+    double warm_up = 0;               // --warm-up, in seconds
     int views = 0;                    // --turntable; 0: none
     std::optional<std::string> time;  // --time
     bool force = false;               // --force

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -277,6 +278,15 @@ Adjustments adjustments_of(const ViewOptions& options, ImageColorSpace space) {
     adjustments.turn = options.turn;
     adjustments.zoom = options.zoom;
     return adjustments;
+}
+
+std::pair<int, int> pixels_of(const char* option, const std::string& text) {
+    constexpr int most_pixels = 16'384;
+    const std::string expected = fmt::format("WxH, 1 to {} each, for example 128x128", most_pixels);
+    const auto size = pair_of<int>(option, text, 'x', expected.c_str());
+    if (std::min(size.first, size.second) < 1 || std::max(size.first, size.second) > most_pixels)
+        throw UsageError(fmt::format("{} {}: expected {}", option, shortened(text), expected));
+    return size;
 }
 
 std::vector<std::string> settings_of(const ViewOptions& options) {

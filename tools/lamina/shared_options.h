@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "choice/choose.h"
@@ -50,6 +51,9 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
 // Returns the scene as a document that load_scene() reads. Its `render` is that of `document`, with
 // the scene's method.
 nlohmann::ordered_json document_of(const Scene& scene, const nlohmann::json& document);
+
+// Returns width and height of an option's value WxH, 1 to 16384 each. Throws UsageError.
+std::pair<int, int> pixels_of(const char* option, const std::string& text);
 
 // Options that change the view without JSON.
 struct ViewOptions {
