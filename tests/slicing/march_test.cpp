@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays that compute shaders march in several dispatches, against the cpu engine and against one
+// dispatch.
+#include <cmath>
+
+#include "cpu_fixture.h"
+
+namespace lamina {
+namespace {
+
+class MarchTest : public gl::EveryContextTest {
+  protected:
+    Volume volume_ =
+        generate({"mixing", std::array<std::int64_t, 3>{20, 20, 20}, SampleType::uint8});
+
+    // Returns a transfer function of 256 points, which llvmpipe's loops count for every slab.
+    static TransferFunction many_points() {
+        std::vector<TransferKnot> knots;
+        for (int i = 0; i < 256; ++i)
+            knots.push_back(knot(i, {.5 + .5 * std::sin(i), .5, .1 * (i % 9)}, .5 + .25 * (i % 7)));
+        return TransferFunction::linear(knots);
+    }
+
+    static Scene scene_of(int samples, const TransferFunction& transfer_function) {
+        Scene scene = unit_box_scene(transfer_function, Projection::perspective, 21, 17);
+        scene.slice.samples = samples;
+        return scene;
+    }
+
+    SlicePlan plan_of(const Scene& scene, const Capabilities& capabilities) const {
+        const Facts facts = measure(scene, volume_, measure_bricks(volume_));
+        return make_plan(scene, facts, capabilities, {}).slice;
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(, MarchTest, gl::both_contexts, gl::context_name);
+
+// A dispatch rounds a ray's sums to float once, by at most 2^-24 of 1. There are at most 65536 / 20
+// dispatches, but few of them see enough of a ray to matter: the bound is that of the cpu engine
+// against OpenGL (cpu_tree_test.cpp).
+TEST_P(MarchTest, MoreSlabsThanLoopsAllowAreDrawnInSeveralDispatches) {
+    for (const Classification each : {Classification::post, Classification::preintegrated}) {
+        Scene scene = scene_of(65536, many_points());
+        scene.slice.classification = each;
+        EXPECT_EQ(plan_of(scene, capabilities()).marched_slabs < 65536, capabilities().software);
+        EXPECT_LE(linf(render(volume_, scene, capabilities()), render_tiles(volume_, scene)),
+                  255 * 1e-5)
+            << name_of(each);
+    }
+}
+
+// Codes are whole numbers, so that dispatches cannot change them.
+TEST_P(MarchTest, DispatchesKeepCodes) {
+    Scene scene = scene_of(3000, many_points());
+    scene.target = Target::emulated;
+    for (const Order order : {Order::back_to_front, Order::front_to_back}) {
+        scene.slice.order = order;
+        const Image expected = render(volume_, scene, capabilities());
+        const Facts facts = measure(scene, volume_, measure_bricks(volume_));
+        Plan plan = make_plan(scene, facts, capabilities(), {});
+        for (const int slabs : {1000, 7}) {
+            plan.slice.marched_slabs = slabs;
+            GlSliceRenderer renderer(volume_, *scene.transfer_function, facts, plan.slice,
+                                     capabilities(), scene.width, scene.height);
+            renderer.draw(View(*scene.camera, scene.width, scene.height));
+            EXPECT_EQ(linf(renderer.read(), expected), 0) << slabs;
+        }
+    }
+}
+
+// Exact segments do not depend on where a ray is cut. Rays end early in any dispatch and brick.
+TEST_P(MarchTest, DispatchesAndBricksKeepExactPictures) {
+    const TransferFunction dense = TransferFunction::linear(
+        {knot(0, {.1, .2, .6}, 0), knot(90, {.2, .7, .5}, 9), knot(255, {1, .2, .1}, 90)});
+    Scene scene = scene_of(64, dense);
+    scene.slice.classification = Classification::exact;
+    const Image expected = trace(volume_, scene, 1e-8);
+    const Facts facts = measure(scene, volume_, measure_bricks(volume_));
+    Capabilities small = capabilities();
+    small.max_3d_texture_size = 12;
+    for (const Capabilities& each : {capabilities(), small}) {
+        Plan plan = make_plan(scene, facts, each, {});
+        EXPECT_TRUE(plan.slice.ends_early());
+        EXPECT_EQ(plan.slice.bricks.size(), each.max_3d_texture_size == 12 ? 8u : 1u);
+        for (const int slabs : {64, 5}) {
+            plan.slice.marched_slabs = slabs;
+            GlSliceRenderer renderer(volume_, *scene.transfer_function, facts, plan.slice, each,
+                                     scene.width, scene.height);
+            renderer.draw(View(*scene.camera, scene.width, scene.height));
+            // What is behind the end of a ray, and the segments' own error (docs/precision.md).
+            EXPECT_LE(linf(renderer.read(), expected), .002 + exact_segment_error) << slabs;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lamina
