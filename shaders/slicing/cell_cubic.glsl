@@ -1,10 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the scalar along a part of a ray inside one cell of the grid, a cubic, normalised so
 // that the volume's range is [0, 1].
-uniform sampler3D volume;
-uniform vec3 last_sample;        // the texture's size in samples, minus one
+// SAMPLE_WORDS: samples are words of a storage buffer, in place of texels.
+uniform vec3 last_sample;        // the brick's size in samples, minus one
 uniform vec2 code_normalisation; // the code that becomes 0, and the factor to normalised scalars
 uniform float largest_code;
+
+#ifdef SAMPLE_WORDS
+layout(std430, binding = 2) readonly buffer Samples { uint sample_words[]; };
+
+// Returns a sample's code, a whole number. Float samples are stored normalised and returned as they
+// are.
+float fetch_code(ivec3 sample_index) {
+    ivec2 size = ivec2(last_sample.xy) + 1;
+    uint place = uint((sample_index.z * size.y + sample_index.y) * size.x + sample_index.x);
+#ifdef FLOAT_SAMPLES
+    return uintBitsToFloat(sample_words[place]);
+#else
+    // A word holds four codes of 8 bits or two of 16.
+    uint shift = largest_code > 255.0 ? 1u : 2u;
+    uint bits = 32u >> shift;
+    uint in_word = place & (1u << shift) - 1u;
+    return float(sample_words[place >> shift] >> in_word * bits & (1u << bits) - 1u);
+#endif
+}
+#else
+uniform sampler3D volume;
 
 // Returns a sample's code, a whole number: a texel holds it divided by the largest code, with a
 // rounding. Float samples are stored normalised and returned as they are.
@@ -16,6 +37,7 @@ float fetch_code(ivec3 sample_index) {
     return round(texel * largest_code);
 #endif
 }
+#endif
 
 // The codes at a cell's corners, at the lower and at the upper x. The components are those at (y,
 // z), (y + 1, z), (y, z + 1) and (y + 1, z + 1).

@@ -160,6 +160,7 @@ struct SlicedPicture : CompositingPlan, LightPlan {
     Classification classification = Classification::post;
     VolumeSampling sampling = VolumeSampling::fetch;
     bool float_texture = false;   // the texture has normalised samples in R32F, not the file's type
+    bool words = false;           // samples are words of a storage buffer, not texels
     bool table_filtered = false;  // tables are read through the texture unit's linear filter
     bool single_color = false;    // all that is visible has one colour, a constant of the program
     bool precise_rays = true;     // rays and chords are computed in double precision

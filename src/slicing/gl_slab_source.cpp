@@ -9,11 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "base/client.h"
 #include "base/enum_words.h"
-#include "base/error.h"
-#include "base/memory.h"
-#include "base/parallel.h"
 #include "base/profile.h"
 #include "executors/gl_optics.h"
 #include "executors/lights.h"
@@ -22,90 +18,10 @@
 #include "gl/api.h"
 #include "optics/pieces.h"
 #include "scene/camera.h"
-#include "slicing/gradient_map.h"
 #include "slicing/slab_geometry.h"
 
 namespace lamina {
 namespace {
-
-gl::TexelBox layer_of(const TextureBrick& brick, std::int64_t z) {
-    return {
-        0, 0, static_cast<int>(z), static_cast<int>(brick.size[0]), static_cast<int>(brick.size[1]),
-        1};
-}
-
-// Converts and uploads a brick layer by layer; only one layer is copied in memory at a time.
-template <typename Texel, typename Sample, typename Convert>
-void upload_converted(const Grid& grid, const TextureBrick& brick, const Sample* samples,
-                      const Convert& convert, gl::Texture& texture, Progress& progress) {
-    std::vector<Texel> layer(static_cast<std::size_t>(brick.size[0] * brick.size[1]));
-    for (std::int64_t z = 0; z < brick.size[2]; ++z) {
-        parallel_for(brick.size[1], 64, [&](std::int64_t y) {
-            const BrickRow own = row_of(brick, grid, y, z);
-            const Sample* const from = samples + own.first;
-            Texel* const to = layer.data() + y * brick.size[0];
-            for (std::int64_t x = own.begin; x < own.end; ++x) to[x] = convert(from[x - own.begin]);
-            own.repeat_ends(to, brick.size[0]);
-        });
-        texture.upload(layer_of(brick, z), std::span<const Texel>(layer));
-        progress.advance();
-    }
-}
-
-// Uploads samples straight from the volume's memory, without a copy.
-template <typename Texel>
-void upload_in_place(const Grid& grid, const TextureBrick& brick, const Texel* samples,
-                     gl::Texture& texture, Progress& progress) {
-    const gl::PixelStore store{static_cast<int>(grid.size[0]), static_cast<int>(grid.size[1])};
-    const std::size_t count =
-        static_cast<std::size_t>((brick.size[1] - 1) * grid.size[0] + brick.size[0]);
-    for (std::int64_t z = 0; z < brick.size[2]; ++z) {
-        check_interrupt();
-        texture.upload(layer_of(brick, z),
-                       std::span<const Texel>(samples + row_of(brick, grid, 0, z).first, count),
-                       store);
-        progress.advance();
-    }
-}
-
-void upload_brick(const Volume& volume, const ValueRange& range, bool as_float,
-                  const TextureBrick& brick, gl::Texture& texture, Progress& progress) {
-    const Grid& grid = volume.grid();
-    volume.visit([&](const auto* samples) {
-        using Sample = std::remove_cvref_t<decltype(*samples)>;
-        if (as_float) {
-            const auto normalise = [&](Sample sample) { return normalised_sample(sample, range); };
-            upload_converted<float>(grid, brick, samples, normalise, texture, progress);
-        } else if constexpr (std::is_same_v<Sample, std::int16_t>) {
-            const auto shift = [](Sample sample) {
-                return static_cast<std::uint16_t>(sample + 32768);
-            };
-            upload_converted<std::uint16_t>(grid, brick, samples, shift, texture, progress);
-        } else if constexpr (std::is_integral_v<Sample>) {
-            upload_in_place(grid, brick, samples, texture, progress);
-        }
-    });
-}
-
-gl::Texture upload_gradients(const Volume& volume, const TextureBrick& brick, Progress& progress) {
-    const auto row_size = static_cast<std::size_t>(brick.size[0]);
-    gl::Texture texture =
-        gl::Texture::make_3d(gl::TextureFormat::rgba16i, static_cast<int>(brick.size[0]),
-                             static_cast<int>(brick.size[1]), static_cast<int>(brick.size[2]));
-    std::vector<StoredGradient> layer(row_size * static_cast<std::size_t>(brick.size[1]));
-    for (std::int64_t z = 0; z < brick.size[2]; ++z) {
-        parallel_for(brick.size[1], 16, [&](std::int64_t y) {
-            set_gradient_row(
-                volume, brick, y, z,
-                std::span(layer).subspan(static_cast<std::size_t>(y) * row_size, row_size));
-        });
-        texture.upload(
-            layer_of(brick, z),
-            std::span(reinterpret_cast<const std::int16_t*>(layer.data()), 4 * layer.size()));
-        progress.advance();
-    }
-    return texture;
-}
 
 // Texture units; those between the tables and these belong to compositing.
 constexpr int distances_unit = 8, gradients_unit = 9;
@@ -143,44 +59,6 @@ SampleCodes sample_codes(const Volume& volume, const ValueRange& range, const Sl
 
 }  // namespace
 
-VolumeTextures::VolumeTextures(const Volume& volume, const ValueRange& range, const SlicePlan& plan)
-    : volume_(volume),
-      range_(range),
-      parts_(plan.bricks),
-      float_texture_(plan.float_texture),
-      filtered_(plan.sampling != VolumeSampling::fetch) {
-    if (!volume.in_memory()) {
-        fail(
-            "the volume does not fit the memory limit of {} bytes, and OpenGL draws volumes in "
-            "memory alone: expected the cpu engine, or more memory",
-            memory_limit());
-    }
-    std::int64_t layers = 0;
-    for (const TextureBrick& brick : parts_) layers += brick.size[2];
-    Progress progress("uploading the volume", plan.lighting ? 2 * layers : layers);
-    const gl::TextureFormat format = float_texture_                       ? gl::TextureFormat::r32f
-                                     : volume.type() == SampleType::uint8 ? gl::TextureFormat::r8
-                                                                          : gl::TextureFormat::r16;
-    for (const TextureBrick& brick : parts_) {
-        gl::Texture texture =
-            gl::Texture::make_3d(format, static_cast<int>(brick.size[0]),
-                                 static_cast<int>(brick.size[1]), static_cast<int>(brick.size[2]));
-        if (filtered_) texture.set_filter(gl::TextureFilter::linear);
-        upload_brick(volume, range, float_texture_, brick, texture, progress);
-        bricks_.push_back(std::move(texture));
-        if (plan.lighting) gradients_.push_back(upload_gradients(volume, brick, progress));
-    }
-}
-
-// Textures of codes do not depend on the range, which normalises floats only.
-bool VolumeTextures::can_replace(const Volume& volume, const ValueRange& range,
-                                 const SlicePlan& plan) const {
-    return volume.shares_samples(volume_) && plan.bricks == parts_ &&
-           plan.float_texture == float_texture_ && (!float_texture_ || range == range_) &&
-           (plan.sampling != VolumeSampling::fetch) == filtered_ &&
-           plan.lighting.has_value() == !gradients_.empty();
-}
-
 gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_nodes) {
     gl::Defines defines;
     defines.set("SAMPLING", sampling_define(plan.sampling));
@@ -196,6 +74,7 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
     if (plan.integrates_cells()) {
         defines.set("EXACT", 1);
         if (plan.float_texture) defines.set("FLOAT_SAMPLES", 1);
+        if (plan.words) defines.set("SAMPLE_WORDS", 1);
     }
     if (!plan.preintegrates()) return defines;
     defines.set("PREINTEGRATED", 1);
@@ -214,7 +93,7 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
 
 GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfer_function,
                            const Facts& facts, const SlicePlan& plan,
-                           std::shared_ptr<const VolumeTextures> ready)
+                           std::shared_ptr<const GlVolume> ready)
     : facts_(facts),
       plan_(plan),
       constant_(transfer_function.at(facts.range.lo)),
@@ -236,7 +115,7 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
     codes_ = sample_codes(volume, range_, plan_);
     if (volume_ && volume_->can_replace(volume, range_, plan_)) return;
     Stage upload("upload");
-    volume_ = std::make_shared<VolumeTextures>(volume, range_, plan_);
+    volume_ = std::make_shared<GlVolume>(volume, range_, plan_);
     gl::api().Finish();
     upload_ms_ = upload.end();
     gl::check("uploading the volume");
@@ -354,7 +233,7 @@ void GlSlabSource::set_brick(gl::Program& program, const View& view, const Slabs
     program.set("last_face", glm::vec3(last_face_of(end, first, facts_.grid)));
     program.set("last_sample",
                 glm::vec3(glm::dvec3(texture.size[0], texture.size[1], texture.size[2]) - 1.0));
-    if (tables_) volume_->bricks()[brick].bind(GlTransferTables::first_free_unit);
+    if (tables_) volume_->bind(brick, GlTransferTables::first_free_unit);
     if (plan_.lighting) volume_->gradients()[brick].bind(gradients_unit);
 }
 

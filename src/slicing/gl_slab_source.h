@@ -6,34 +6,12 @@
 
 #include "executors/gl_optics.h"
 #include "gl/program.h"
-#include "gl/texture.h"
 #include "lamina/transfer_function.h"
-#include "lamina/volume.h"
 #include "plan/plan.h"
+#include "slicing/gl_volume.h"
 #include "slicing/slab_geometry.h"
 
 namespace lamina {
-
-// The volume as 3D textures, one for each brick of the plan; for a lit plan also its gradients.
-class VolumeTextures {
-  public:
-    // Uploads the volume and shows progress. Samples that are not finite become NaN.
-    VolumeTextures(const Volume& volume, const ValueRange& range, const SlicePlan& plan);
-
-    // Tells whether this object can be used in place of a new one made from these arguments.
-    bool can_replace(const Volume& volume, const ValueRange& range, const SlicePlan& plan) const;
-
-    const std::vector<gl::Texture>& bricks() const { return bricks_; }
-    // Returns the gradients that shaders/volume/gradient.glsl reads; empty if the plan is not lit.
-    const std::vector<gl::Texture>& gradients() const { return gradients_; }
-
-  private:
-    Volume volume_;
-    ValueRange range_;
-    std::vector<TextureBrick> parts_;
-    bool float_texture_, filtered_;
-    std::vector<gl::Texture> bricks_, gradients_;
-};
 
 // How texels become scalars. A texel is code / largest, and the scalar, normalised so that the
 // drawn range is [0, 1], is (code - base) * scale. The codes of floats are normalised scalars.
@@ -53,8 +31,7 @@ class GlSlabSource {
     // Uploads the volume unless `ready` can be used, and builds the tables. The transfer function
     // is in the plan's units, as views are; facts are in the world's.
     GlSlabSource(const Volume& volume, const TransferFunction& transfer_function,
-                 const Facts& facts, const SlicePlan& plan,
-                 std::shared_ptr<const VolumeTextures> ready);
+                 const Facts& facts, const SlicePlan& plan, std::shared_ptr<const GlVolume> ready);
 
     // Replaces the plan by that of another view, which differs only in what belongs to one view.
     void take_plan(const SlicePlan& plan);
@@ -71,7 +48,7 @@ class GlSlabSource {
     const Grid& grid() const { return facts_.grid; }
     const glm::vec3& single_color() const { return single_color_; }
     // Returns the textures; if the plan fetches no scalar, the constructor's `ready`, or null.
-    std::shared_ptr<const VolumeTextures> volume() const { return volume_; }
+    std::shared_ptr<const GlVolume> volume() const { return volume_; }
     double upload_ms() const { return upload_ms_; }
     double table_ms() const { return table_ms_; }
 
@@ -87,7 +64,7 @@ class GlSlabSource {
     glm::vec3 single_color_{0};
     OpticalProperties constant_;              // used if no scalar is fetched
     std::optional<GlTransferTables> tables_;  // set if scalars are fetched
-    std::shared_ptr<const VolumeTextures> volume_;
+    std::shared_ptr<const GlVolume> volume_;
     SampleCodes codes_;
     std::optional<gl::Texture> distances_;  // OccupiedBricks::distance, if a plan needs it
     double upload_ms_ = 0, table_ms_ = 0;

@@ -138,7 +138,7 @@ void GlSlabPass::draw_brick(std::size_t place, const SampleSpan& span) {
 GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                                  const Facts& facts, const SlicePlan& plan,
                                  const Capabilities& capabilities, int width, int height,
-                                 std::shared_ptr<const VolumeTextures> ready)
+                                 std::shared_ptr<const GlVolume> ready)
     : plan_(plan), grid_(in_units(facts.grid, plan.unit)) {
     if (plan_.nothing_visible || !computes(plan_))
         target_.emplace(gl::Texture::make_2d(color_format(plan), width, height));

@@ -57,7 +57,7 @@ class GlSliceRenderer : public SliceRenderer {
     // `ready`: volume() of another renderer, which is used if it has the right form.
     GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
                     const Facts& facts, const SlicePlan& plan, const Capabilities& capabilities,
-                    int width, int height, std::shared_ptr<const VolumeTextures> ready = nullptr);
+                    int width, int height, std::shared_ptr<const GlVolume> ready = nullptr);
     GlSliceRenderer(const GlSliceRenderer&) = delete;  // its parts refer to its plan
     GlSliceRenderer& operator=(const GlSliceRenderer&) = delete;
 
@@ -69,9 +69,7 @@ class GlSliceRenderer : public SliceRenderer {
     std::map<std::string, double> stages_ms() const override;
 
     SliceReuse reusable() const override { return {nullptr, volume()}; }
-    std::shared_ptr<const VolumeTextures> volume() const {
-        return source_ ? source_->volume() : kept_;
-    }
+    std::shared_ptr<const GlVolume> volume() const { return source_ ? source_->volume() : kept_; }
 
   private:
     void draw_straight(Progress* progress);
@@ -87,8 +85,8 @@ class GlSliceRenderer : public SliceRenderer {
     std::optional<GlShaderTree> shader_tree_;
     std::optional<GlCodeSlabs> code_slabs_;
     gl::Timeline timeline_;
-    std::shared_ptr<const VolumeTextures> kept_;  // for another renderer, if nothing is visible
-    double geometry_ms_ = 0, draw_ms_ = 0;        // of the last frame
+    std::shared_ptr<const GlVolume> kept_;  // for another renderer, if nothing is visible
+    double geometry_ms_ = 0, draw_ms_ = 0;  // of the last frame
 };
 
 }  // namespace lamina

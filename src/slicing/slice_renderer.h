@@ -15,12 +15,12 @@
 namespace lamina {
 
 class CpuVolume;
-class VolumeTextures;
+class GlVolume;
 
 // The volume as a renderer has prepared it. The next renderer uses it if it has the form needed.
 struct SliceReuse {
     std::shared_ptr<const CpuVolume> tiles;          // of the engine `cpu`
-    std::shared_ptr<const VolumeTextures> textures;  // of OpenGL
+    std::shared_ptr<const GlVolume> textures;  // of OpenGL
 };
 
 // A renderer of volumes whose prepared volume other renderers can use.

@@ -57,14 +57,17 @@ void expect_parts(const std::string& text, std::initializer_list<const char*> pa
 }
 
 TEST(CompositingPlan, EmulatedTargetsAreBlendedByTheProgram) {
-    const nlohmann::json document =
+    nlohmann::json document =
         scene_with({{"target", "emulated"}, {"emulate", {{"bits", 12}, {"over", "fused"}}}});
     Capabilities capabilities = usual();
     SlicePlan slice = slice_of(document, capabilities);
-    EXPECT_EQ(slice.blending, Blending::barrier);
+    EXPECT_EQ(slice.blending, Blending::registers);
     ASSERT_TRUE(slice.emulation.has_value());
     EXPECT_EQ(slice.emulation->over, OverRounding::fused);
     EXPECT_EQ(slice.code_bits(), 12);
+    // The rasteriser draws leaves of trees of fixed-point nodes.
+    document["render"]["slice"]["tree"] = {{"factors", "4"}, {"nodes", "fixed"}};
+    EXPECT_EQ(slice_of(document, capabilities).blending, Blending::barrier);
     capabilities.framebuffer_fetch = true;
     EXPECT_EQ(slice_of(document, capabilities).blending, Blending::fetch);
     capabilities.cpu = true;

@@ -211,7 +211,7 @@ void compare_gradients(const Volume& volume, bool bordered, std::uint64_t brick_
     plan.float_texture = volume.type() == SampleType::float32;
     plan.bricks = cut_into_bricks(volume.grid(), bordered, sizeof(StoredGradient), small);
     plan.lighting.emplace().smallest_gradient = smallest;
-    const VolumeTextures textures(volume, {0, 1}, plan);
+    const GlVolume textures(volume, {0, 1}, plan);
     ASSERT_EQ(textures.gradients().size(), plan.bricks.size());
     gl::Program program = gradient_program();
     const SmallestGradient parts = smallest_gradient_of(*plan.lighting);

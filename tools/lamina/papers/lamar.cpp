@@ -97,7 +97,7 @@ const std::vector<LamarItem>& lamar_items() {
           "dithering_increments.svg", "dithering_spans.csv"},
          reproduce_dithering,
          nullptr},
-        {"times", {"times.csv", "times_barriers.csv", "times_palettes.csv"}, nullptr, draw_times},
+        {"times", {"times.csv", "times_palettes.csv"}, nullptr, draw_times},
     };
     return items;
 }

@@ -57,7 +57,6 @@ gl::Defines defines_of(PaletteSlices::Source source, int period) {
 using Json = nlohmann::ordered_json;
 
 constexpr int timed_pixels = 512, slices = 1024, rounds = 3;
-constexpr int barrier_pixels = 64;
 constexpr int palette_period = 16;
 // Side of the volume's square as a share of the picture's: it covers a quarter of the picture,
 // while the nodes of a tree are composited over all of it.
@@ -99,7 +98,7 @@ std::vector<Technique> timed_techniques() {
             {"straight float16", Target::float16},
             {.name = "straight float32, blended", .target = Target::float32, .blend = true},
             {"straight float32, in registers", Target::float32},
-            {"emulated 8 bits, fetch", Target::emulated},
+            {"emulated 8 bits, in registers", Target::emulated},
             {.name = "emulated 8 bits, dithered", .target = Target::emulated, .dither = true},
             {.name = "fixed8, dithered", .dither = true},
             {.name = "shader tree 2^10", .factors = binary},
@@ -145,26 +144,6 @@ Json time_techniques(const std::shared_ptr<const VolumeData>& volume, const Lama
                                    .tables = stage.tables()}));
     }
     return time_rows(frames, study::time_interleaved("times: techniques", frames, rounds));
-}
-
-// Compares contexts: one that cannot read the pixel that it writes needs a barrier after each slab.
-Json time_barriers(const std::shared_ptr<const VolumeData>& volume, const LamarStage& stage) {
-    const Capabilities& capabilities = stage.capabilities();
-    Scene scene = timed_scene(false);
-    scene.width = scene.height = barrier_pixels;
-    std::vector<study::TimedFrame> frames;
-    const auto add = [&](const char* name, Target target, const Capabilities& of) {
-        scene.target = target;
-        frames.push_back(
-            frame_of(name, volume, scene, {.capabilities = of, .tables = stage.tables()}));
-    };
-    Capabilities without_fetch = capabilities;
-    without_fetch.framebuffer_fetch = false;
-    add("straight fixed8", Target::fixed8, capabilities);
-    if (capabilities.framebuffer_fetch)
-        add("emulated 8 bits, fetch", Target::emulated, capabilities);
-    add("emulated 8 bits, texture barriers", Target::emulated, without_fetch);
-    return time_rows(frames, study::time_interleaved("times: barriers", frames, rounds));
 }
 
 // Measures the cost of a palette for every slice, which section 5 leaves open.
@@ -226,18 +205,17 @@ Image PaletteSlices::draw() {
 Json draw_times(const std::filesystem::path& folder, LamarStage& stage) {
     const auto volume = std::make_shared<const VolumeData>(
         generate({"mixing", std::array<std::int64_t, 3>{128, 128, 128}, SampleType::uint8}));
-    Json values{{"files", {"times.csv", "times_barriers.csv", "times_palettes.csv"}},
+    Json values{{"files", {"times.csv", "times_palettes.csv"}},
                 {"renderer", renderer_and_threads(stage.capabilities())},
                 {"pixels", timed_pixels},
                 {"covered_share", volume_in_picture * volume_in_picture},
                 {"samples", slices},
                 {"rounds", rounds}};
     values["techniques"] = time_techniques(volume, stage);
-    values["barriers"] = time_barriers(volume, stage);
     bool same_picture = false;
     values["palettes"] = time_palettes(same_picture);
     study::write_text(folder / "times.csv", csv_of_rows(values["techniques"]));
-    study::write_text(folder / "times_barriers.csv", csv_of_rows(values["barriers"]));
+    study::write_text(folder / csv_of_rows(values["barriers"]));
     study::write_text(folder / "times_palettes.csv", csv_of_rows(values["palettes"]));
     Findings findings;
     findings.add(
