@@ -88,6 +88,13 @@ std::vector<double> numbers_of(hid_t object, const std::string& key) {
     return numbers;
 }
 
+std::optional<ValueType> type_of(hid_t object, const std::string& key) {
+    if (H5Aexists(object, key.c_str()) <= 0) return {};
+    const Hdf5Handle found(H5Aopen(object, key.c_str(), H5P_DEFAULT), H5Aclose);
+    const Hdf5Handle type(H5Aget_type(found.id()), H5Tclose);
+    return type_of_hdf5(type.id());
+}
+
 std::vector<std::string> texts_of(hid_t object, const std::string& key) {
     if (H5Aexists(object, key.c_str()) <= 0) return {};
     const Hdf5Handle found(H5Aopen(object, key.c_str(), H5P_DEFAULT), H5Aclose);

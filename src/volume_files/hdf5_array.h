@@ -40,9 +40,10 @@ class Hdf5Handle {
     Closer close_;
 };
 
-// Return an attribute of a group or data set: its numbers, up to 64; its texts; its texts one after
-// another, because Imaris stores each letter as one; or nothing.
+// Return an attribute of a group or data set: its numbers, up to 64, and their type; its texts; its
+// texts one after another, because Imaris stores each letter as one; or nothing.
 std::vector<double> numbers_of(hid_t object, const std::string& key);
+std::optional<ValueType> type_of(hid_t object, const std::string& key);
 std::vector<std::string> texts_of(hid_t object, const std::string& key);
 std::string text_of(hid_t object, const std::string& key);
 

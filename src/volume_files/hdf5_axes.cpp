@@ -256,13 +256,13 @@ class AxisReader {
 }  // namespace
 
 PackedValues values_in(hid_t set, const std::string& name, ValueType type, bool has_defaults) {
-    const auto numbers = [set](const char* key) { return numbers_of(set, key); };
-    const auto text = [set, &numbers](const char* key) {
-        const std::string found = text_of(set, key);
-        const bool is_other = found.empty() && numbers(key).empty() && H5Aexists(set, key) > 0;
-        return is_other ? "neither text nor up to 64 numbers" : found;
+    const auto attribute = [set](const char* key) {
+        PackedAttribute found{numbers_of(set, key), type_of(set, key), text_of(set, key)};
+        if (found.numbers.empty() && found.text.empty() && H5Aexists(set, key) > 0)
+            found.text = "neither text nor up to 64 numbers";
+        return found;
     };
-    return PackedValues(name, type, has_defaults, numbers, text);
+    return PackedValues(name, type, has_defaults, attribute);
 }
 
 DescribedArray describe_hdf5(Hdf5Files& files, const Hdf5Array& array, const Hdf5Layout& layout,

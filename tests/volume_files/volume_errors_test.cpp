@@ -73,6 +73,12 @@ TEST_F(VolumeErrors, NameMistakesInNifti) {
     expect("a.nii", corpus_file("nifti/huge.nii"), {"promises 32767 x 32767 x 32767"});
     expect("a.nii", with_number(one, 40, std::int16_t{2}), {"dim[0]: found 2"});
     expect("a.nii", with_number(one, 44, std::int16_t{-5}), {"dim[2]: found -5"});
+    std::string seven = with_number(one, 40, std::int16_t{7});
+    for (const std::size_t i : {4, 5, 6}) seven = with_number(seven, 40 + 2 * i, std::int16_t{1});
+    expect("a.nii", with_number(seven, 54, std::int16_t{2}),
+           {"dim[7]: found 2, expected 1: axes beyond x, y, z, time and vector are not read"});
+    EXPECT_EQ(read_volume(write("a.nii", with_number(seven, 54, std::int16_t{1}))).grid().size,
+              (std::array<std::int64_t, 3>{4, 3, 2}));
     expect("a.nii", with_number(one, 70, std::int16_t{32}), {"datatype: found 32"});
     expect("a.nii", with_number(one, 108, 12.F), {"vox_offset: found 12, expected at least 348"});
     expect("a.nii", corpus_file("nifti/far_offset.nii"), {"vox_offset"});
