@@ -165,15 +165,21 @@ class AxisReader {
         described.coordinates = text_of(array_.id(), "coordinates");
     }
 
-    // Reads coordinates from data sets with the names of axes beside the array (NeXus, xarray).
+    // Reads coordinates from data sets beside the array, with the names of axes (NeXus, xarray), or
+    // called dim1, dim2 and so on (EMD of electron microscopes, emdatasets.com).
     void read_coordinates_beside() {
-        for (ArrayAxis& axis : described.axes) {
-            if (axis.name.empty() || !axis.coordinates.empty()) continue;
+        const bool is_emd = H5Aexists(files_.group(parents_[0]).id(), "emd_group_type") > 0;
+        for (std::size_t i = 0; i < described.axes.size(); ++i) {
+            ArrayAxis& axis = described.axes[i];
+            const std::string name = is_emd ? fmt::format("dim{}", i + 1) : axis.name;
+            if (name.empty() || !axis.coordinates.empty()) continue;
             const std::string path =
-                fmt::format("{}/{}", parents_[0] == "/" ? "" : parents_[0], axis.name);
-            if (axis.name.find('/') != axis.name.npos || !files_.has(path)) continue;
+                fmt::format("{}/{}", parents_[0] == "/" ? "" : parents_[0], name);
+            if (name.find('/') != name.npos || !files_.has(path)) continue;
             const Hdf5Handle set = files_.open_beside(path);
-            if (set.valid()) read_coordinates(set.id(), array_.name(), axis);
+            if (!set.valid()) continue;
+            if (is_emd) axis.name = text_of(set.id(), "name");
+            read_coordinates(set.id(), array_.name(), axis);
         }
     }
 

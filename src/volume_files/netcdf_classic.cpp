@@ -389,6 +389,7 @@ Volume open_netcdf_classic(const std::filesystem::path& path, const VolumeReques
                            const VolumeUse& use) {
     const ArrayPath named = array_path(path);
     const NetcdfFile file(named.file);
+    if (file.variable("image-max") != nullptr) fail_as_minc(file.name());
     VolumeContents contents;
     const NetcdfVariable& variable =
         wanted_variable(file, named.array.empty() ? request.array : named.array, contents);

@@ -12,6 +12,7 @@
 #include "base/input_file.h"
 #include "volume_files/bricked_copy.h"
 #include "volume_files/folder_contents.h"
+#include "volume_files/foreign_files.h"
 #include "volume_files/volume_formats.h"
 
 namespace lamina {
@@ -174,6 +175,7 @@ const VolumeFormat& expected_format(const Path& path) {
 #endif
     if (format != nullptr) return *format;
     expect_no_folder(path);
+    expect_no_foreign_file(path);
     expect_regular_file(path);
     fail("{}: unknown kind of volume: expected {}, or its size and type (--raw)", path.string(),
          volume_format_names());

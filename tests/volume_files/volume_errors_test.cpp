@@ -100,6 +100,25 @@ TEST_F(VolumeErrors, NameMistakesInNifti) {
     expect("a.nii", one, {"level: expected no such key: NIfTI files hold only one"}, request);
 }
 
+TEST_F(VolumeErrors, NameFormatsThatAreNotRead) {
+    const std::string zeros(600, '\0');
+    const auto marked = [&](std::size_t at, const std::string& mark) {
+        return zeros.substr(0, at) + mark + zeros;
+    };
+    expect("a.any", marked(208, "MAP "),
+           {"found an MRC or CCP4 map, which is not read: the Python"});
+    expect("a.am", marked(0, "# AmiraMesh BINARY"), {"found an Amira or Avizo file", "NRRD"});
+    expect("a.x", marked(0, "ZISRAWFILE"), {"found a Zeiss CZI file", "Bio-Formats"});
+    expect("a.LIF", zeros, {"found a Leica file"});
+    expect("a", marked(0, "SIMPLE  ="), {"found a FITS file"});
+    expect("a.mgz", marked(0, "\x1f\x8b"), {"found a FreeSurfer volume", "mri_convert"});
+    expect("a.nrrd.gz", marked(0, "\x1f\x8b"), {"found a gzip file", "unpack it first"});
+    expect("a.zip", marked(0, "PK\3\4"), {"found a ZIP archive"});
+    expect("a.jp2", marked(0, std::string("\0\0\0\x0cjP  ", 8)), {"found a JPEG 2000 picture"});
+    expect("a.any", "", {"a.any: the file is empty"});
+    expect("a.any", zeros, {"unknown kind of volume"});
+}
+
 TEST_F(VolumeErrors, NameMistakesInNumpy) {
     const std::string good_one = corpus_file("npy_volume/i2.npy");
     EXPECT_EQ(read_volume(write("a.npy", good_one)).grid().size,

@@ -153,6 +153,14 @@ def labels(h5py, cases, write, add, bad):
             group[name] = np.arange(count) * step
             group[name].attrs["units"] = unit
     add("nexus.h5", array, diagonal(.5, .25, 2), unit="mm")
+    with h5py.File(cases.path("a.emd"), "w") as file:
+        group = file.create_group("data/raw")
+        group.attrs["emd_group_type"] = 1
+        group["data"] = array.transpose(2, 1, 0)
+        for i, (word, count, step) in enumerate((("x", 6, .9), ("y", 5, .7), ("z", 4, 2.5))):
+            group[f"dim{i + 1}"] = np.arange(count) * step
+            group[f"dim{i + 1}"].attrs.update({"name": word, "units": "[n_m]"})
+    add("a.emd", array, diagonal(.9, .7, 2.5), unit="[n_m]")
     with h5py.File(cases.path("nearly.h5"), "w") as file:
         file["v"] = array
         file["z"] = [0., 1.03, 1.98, 3]
@@ -596,6 +604,12 @@ def classic(cases, add, bad):
             add(f"text{number}.nc", np.where(array == 7, np.nan, array).astype("f4"), warnings=["missing_value 7"])
         else:
             bad(f"text{number}.nc", f"missing_value: found \"{text}\", expected a number")
+    with netcdf_file(cases.path("minc1.mnc"), "w") as file:
+        for word, size in zip("zyx", SHAPE):
+            file.createDimension(f"{word}space", size)
+        file.createVariable("image", "h", ("zspace", "yspace", "xspace"))[:] = array
+        file.createVariable("image-max", "d", ("zspace",))[:] = np.arange(4)
+    bad("minc1.mnc", "found MINC", "mnc2nii")
     with netcdf_file(cases.path("single.nc"), "w") as file:  # a single record variable is not padded
         for word, size in (("z", None), ("y", 3), ("x", 3)):
             file.createDimension(word, size)

@@ -244,6 +244,7 @@ def others(cases, tifffile):
     plain("turned.tif", ["its Orientation 3"], extratags=[(274, "H", 1, 3, True)])
     plain("words.tif", ["its description is in no form that lamina reads"], description="Voxel size 2 um")
     plain("lsm.tif", ["what Zeiss (LSM) says"], extratags=[(34412, "B", 8, bytes(8), True)])
+    plain("manager.tif", ["what Micro-Manager says"], extratags=[(51123, "s", 0, '{"Slices": 4, "Channels": 2}', True)])
     plain("nodata.tif", ["it says that -9999 is no data (GDAL_NODATA)"], extratags=[(42113, "s", 0, "-9999", True)])
     plain("geo.tif", ["GeoTIFF (ModelPixelScale)"], extratags=[(33550, "d", 3, (2., 2., 0.), True)])
     tifffile.imwrite(cases.path("stk.tif"), volume[0], metadata=None, extratags=[(33629, "I", 8, tuple(range(8)), True)])
