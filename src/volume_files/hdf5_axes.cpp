@@ -278,6 +278,11 @@ DescribedArray describe_hdf5(Hdf5Files& files, const Hdf5Array& array, const Hdf
         reader.name_axes(words_in(layout.labels, array.shape().size()));
         return reader.described;
     }
+    if (H5Aexists(array.id(), "MATLAB_class") > 0)
+        warn(
+            fmt::format("{}: MATLAB has written it: its first axis (rows) is taken for x, its "
+                        "second (columns) for y",
+                        array.name()));
     reader.read_axistags();
     reader.read_image(contents);
     reader.read_labels_and_scales();

@@ -126,6 +126,11 @@ void set_steps_by_directions(const std::string& file, const Nrrd& nrrd,
     if (nrrd.spaceDim != 3) {
         fail("{}: space: found {} dimensions, expected 3", file, nrrd.spaceDim);
     }
+    if (nrrd.space == nrrdSpace3DLeftHanded)
+        warn(
+            fmt::format("{}: space: 3D-left-handed axes are drawn as right-handed ones, which "
+                        "shows a mirror image",
+                        file));
     for (std::size_t i = 0; i < 3; ++i) {
         if (!has_direction(nrrd, axes[i])) {
             fail("{}: space directions: axis {} has none, expected three directions", file,

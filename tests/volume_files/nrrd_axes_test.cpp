@@ -201,6 +201,8 @@ TEST_F(NrrdAxes, NamedSpacesOfPatientsBecomeLps) {
             .grid();
     EXPECT_EQ(other.axes, WorldAxes::unnamed);
     EXPECT_EQ(other.origin, glm::dvec3(5, 6, 7));
+    ASSERT_EQ(warnings_.size(), 1u);
+    expect_says(warnings_[0], {"a.nrrd: space: 3D-left-handed", "shows a mirror image"});
 }
 
 TEST_F(NrrdAxes, FilesOfAFolderAreSortedByTheirNumbers) {

@@ -296,6 +296,8 @@ def packed(h5py, cases, write, add, bad):
 def others(h5py, cases, write, add, bad):
     """Truth values, float16, bits, colour images, soft links."""
     truth = ramp() % 3 == 0
+    write("matlab.mat", ramp(), {"MATLAB_class": np.bytes_("int16")})
+    add("matlab.mat", ramp(), warnings=["MATLAB has written it: its first axis (rows) is taken for x"])
     write("bool.h5", truth)
     add("bool.h5", truth.astype("u1"))
     write("half.h5", ramp("<f2"))
