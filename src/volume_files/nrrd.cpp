@@ -26,19 +26,6 @@ bool has_direction(const Nrrd& nrrd, unsigned axis) {
     return nrrd.spaceDim > 0 && !std::isnan(nrrd.axis[axis].spaceDirection[0]);
 }
 
-Centering centering_of(const NrrdAxisInfo& axis) {
-    return axis.center == nrrdCenterCell ? Centering::cell : Centering::node;
-}
-
-// Returns the given spacing of an axis, else the one that min and max imply, else NaN.
-double known_spacing_of(const NrrdAxisInfo& axis) {
-    if (!std::isnan(axis.spacing)) return axis.spacing;
-    const bool cell = centering_of(axis) == Centering::cell;
-    const double intervals = static_cast<double>(axis.size) - (cell ? 0 : 1);
-    if (intervals == 0) return 1;
-    return (axis.max - axis.min) / intervals;
-}
-
 // Tells if the header says that an axis does not lie in space.
 bool is_apart(const Nrrd& nrrd, unsigned axis) {
     const int kind = nrrd.axis[axis].kind;
@@ -46,9 +33,9 @@ bool is_apart(const Nrrd& nrrd, unsigned axis) {
         return !nrrdKindIsDomain(kind) || kind == nrrdKindTime;
     for (unsigned other = 0; other < nrrd.dim; ++other)
         if (has_direction(nrrd, other)) return !has_direction(nrrd, axis);
-    const auto is_spaced = [&](unsigned i) { return !std::isnan(known_spacing_of(nrrd.axis[i])); };
-    for (unsigned other = 0; other < nrrd.dim; ++other)
-        if (is_spaced(other)) return !is_spaced(axis);
+    const auto is_spaced = [&](unsigned i) { return !std::isnan(nrrd.axis[i].spacing); };
+    for (unsigned other = 0; other < nrrd.dim && kind == nrrdKindUnknown; ++other)
+        if (is_spaced(other)) return !is_spaced(axis) && std::isnan(nrrd.axis[axis].min);
     return false;
 }
 
@@ -83,6 +70,19 @@ std::vector<unsigned> volume_axes(const std::string& file, const Nrrd& nrrd) {
         }
     }
     return axes;
+}
+
+Centering centering_of(const NrrdAxisInfo& axis) {
+    return axis.center == nrrdCenterCell ? Centering::cell : Centering::node;
+}
+
+// Returns the given spacing of an axis, else the one that min and max imply, else NaN.
+double known_spacing_of(const NrrdAxisInfo& axis) {
+    if (!std::isnan(axis.spacing)) return axis.spacing;
+    const bool cell = centering_of(axis) == Centering::cell;
+    const double intervals = static_cast<double>(axis.size) - (cell ? 0 : 1);
+    if (intervals == 0) return 1;
+    return (axis.max - axis.min) / intervals;
 }
 
 // Returns the known spacing, or 1 if the file gives none.
