@@ -114,9 +114,9 @@ def ome_sets(cases, tifffile):
     for name in names:
         cases.add(name, both[0], warnings=["channel 0 of 2 is taken"])
         cases.add(name, both[1], channel=1)
-    lost = ["lost_c0.ome.tif", "lost_c1.ome.tif"]
-    write(cases, tifffile, lost[0], both[0], pixels(parts(lost), sizes))
-    cases.add(lost[0], both[0])
+    lost = ["lost_c0.ome.tif", "lost_c1.ome.tif", "lost_c2.ome.tif"]
+    write(cases, tifffile, lost[0], both[0], pixels(parts(lost), (12, 10, 8, 3, 1)))
+    cases.add(lost[0], both[0], warnings=["lost_c1.ome.tif: no such file: 2 of the 3 files that"])
     cases.refuse(lost[0], "lost_c1.ome.tif: file of the OME data set", "no such file", channel=1)
     write(cases, tifffile, "renamed.ome.tif", both[0], pixels(parts(["old.ome.tif"]), (12, 10, 8, 1, 1)), ' UUID="urn:uuid:0"')
     cases.add("renamed.ome.tif", both[0])
