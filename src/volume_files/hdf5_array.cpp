@@ -152,11 +152,15 @@ std::optional<ValueType> type_in(hid_t set) {
     return type_of_hdf5(type.id());
 }
 
-bool can_be_volume(hid_t set) {
+bool has_axes_of_volume(hid_t set) {
     const Hdf5Handle space(H5Dget_space(set), H5Sclose);
-    const Hdf5Handle type(H5Dget_type(set), H5Tclose);
     const int rank = H5Sget_simple_extent_ndims(space.id());
-    return rank >= 3 && rank <= most_rank && has_numbers(type.id());
+    return rank >= 3 && rank <= most_rank;
+}
+
+bool can_be_volume(hid_t set) {
+    const Hdf5Handle type(H5Dget_type(set), H5Tclose);
+    return has_axes_of_volume(set) && has_numbers(type.id());
 }
 
 Hdf5Array::Hdf5Array(Hdf5Handle set, std::string name)

@@ -520,7 +520,8 @@ def linked(h5py, cases, write, add, bad):
 
 def refused(h5py, cases, write, add, bad):
     write("complex.h5", np.zeros(SHAPE, "c8"))
-    bad("complex.h5", "complex numbers of r, i", array="/v")
+    for request in ({}, {"array": "/v"}):
+        bad("complex.h5", "complex numbers of r, i", **request)
     write("words.h5", np.full(SHAPE, b"word"))
     bad("words.h5", "found text of 4 bytes", array="/v")
     with h5py.File(cases.path("minc.mnc.h5"), "w") as file:
