@@ -310,7 +310,6 @@ class VariableReader {
         : file_(file), variable_(variable), place_(place), index_(place.index) {
         for (const std::size_t number : variable.dimensions)
             counts_.push_back(file.dimensions[number].size);
-        begin_ = variable.begin;
         row_ = file.row_bytes(variable, false);
         step_ = file.record_bytes;
         if (!file.is_record(variable)) step_ = row_ /= static_cast<std::uint64_t>(counts_[0]);
@@ -325,11 +324,13 @@ class VariableReader {
         rows_ = rows / slices_;
         samples_ = static_cast<std::uint64_t>(place.grid.sample_count()) / slices_;
         counts_[first_] = static_cast<std::int64_t>(rows_);
-        const std::uint64_t size = file.file().size(), last = (rows - 1) * step_;
-        if (begin_ > size || last > size - begin_ || row_ > size - begin_ - last) {
+        // Each of the three is less than 2^62.
+        const std::uint64_t size = file.file().size(), end = begin_ + (rows - 1) * step_ + row_;
+        if (variable.begin > size || end > size - variable.begin) {
             fail("{}: {}: truncated: the header promises {} bytes at byte {}, the file has {}",
-                 file.name(), variable.name, last + row_, begin_, size);
+                 file.name(), variable.name, end, variable.begin, size);
         }
+        begin_ += variable.begin;
     }
 
     // Returns the bytes that reading takes beside the samples.
