@@ -227,10 +227,10 @@ TetMesh::TetMesh(MeshData data, const std::string& name)
     check_corners(name);
     drop_repeated_corners(name);
     check_points(name);
-    // Meshes of cells that share no points have a point for each of up to four tets (Lagrange cells
-    // of order 6), others one for five or six. With so many, copies are looked for at once, so that
-    // faces are matched only once.
-    const bool cells_apart = points_.size() >= tets_.size() / 4;
+    // Meshes of cells that share no points have a point for each tet or two (quadratic cells),
+    // others one for five or six. With so many, copies are looked for at once, so that faces are
+    // matched only once.
+    const bool cells_apart = points_.size() >= tets_.size() / 2;
     if (!cells_apart) find_neighbors();
     const bool joined = find_copies();
     if (joined) drop_repeated_corners(name);
