@@ -64,7 +64,10 @@ constexpr ForeignFormat formats_not_read[] = {
     {"a Gaussian cube file", 0, "", " .cube .cub ", "ParaView saves it as .vti"},
     {"a SEG-Y file", 0, "", " .sgy .segy ", "segyio reads it, numpy.save writes .npy"},
     {"a description of raw data", 0, "ObjectFileName:", " .vgi ", as_raw},
+    {"an ENVI header", 0, "ENVI", "", as_raw},
+    {"a BOV header", 0, "", " .bov ", as_raw},
     {"a PVM volume", 0, "PVM", "", as_raw},
+    {"a MagicaVoxel file", 0, "VOX ", " .vox ", numpy},
     {"a surface", 0, "", " .ply .stl .obj .off .gii ", surface},
     {"a table of text", 0, "", " .csv .xyz ", numpy},
     {"a Python pickle or PyTorch file", 0, "", " .pkl .pickle .pt .pth ", numpy},
@@ -83,7 +86,7 @@ constexpr ForeignFormat formats_not_read[] = {
 
 }  // namespace
 
-void expect_no_foreign_file(const std::filesystem::path& path) {
+void expect_no_foreign_file(const std::filesystem::path& path, bool is_named) {
     std::error_code unreadable;
     if (!std::filesystem::is_regular_file(path, unreadable)) return;
     if (std::filesystem::file_size(path, unreadable) == 0 && !unreadable)
@@ -97,10 +100,10 @@ void expect_no_foreign_file(const std::filesystem::path& path) {
         const bool is_marked =
             !format.mark.empty() && beginning.size() > format.at &&
             std::string_view(beginning).substr(format.at).starts_with(format.mark);
-        const bool is_named =
+        const bool has_name =
             !extension.empty() && std::string_view(format.extensions).find(" " + extension + " ") !=
                                       std::string_view::npos;
-        if (is_marked || is_named)
+        if ((is_marked || has_name) && !(is_named && format.advice == unpack))
             fail("{}: found {}, which is not read: {}", path.string(), format.name, format.advice);
     }
 }

@@ -115,6 +115,10 @@ TEST_F(VolumeErrors, NameFormatsThatAreNotRead) {
     expect("a.nrrd.gz", marked(0, "\x1f\x8b"), {"found a gzip file", "unpack it first"});
     expect("a.zip", marked(0, "PK\3\4"), {"found a ZIP archive"});
     expect("a.jp2", marked(0, std::string("\0\0\0\x0cjP  ", 8)), {"found a JPEG 2000 picture"});
+    expect("a.hdr", marked(0, "ENVI\n"), {"found an ENVI header", "--raw"});
+    expect("a.hdr", marked(0, "!INTERFILE :="), {"found an Interfile header"});
+    expect("a.tif", marked(0, "GIF89a"), {"found a GIF picture"});
+    expect("a.nrrd", "", {"a.nrrd: the file is empty"});
     expect("a.any", "", {"a.any: the file is empty"});
     expect("a.any", zeros, {"unknown kind of volume"});
 }
