@@ -30,7 +30,8 @@ constexpr const char *bio_formats = "Fiji (Bio-Formats) saves it as OME-TIFF",
                      *scanco = "Fiji (its plugin for SCANCO) saves it as TIFF",
                      *numpy = "numpy.save writes arrays as .npy", *surface = "it has no volume",
                      *pictures = "save its pictures as PNG or TIFF, such as by ImageMagick",
-                     *unpack = "unpack it first", *dataset = "xarray or cdo write NetCDF of it",
+                     *unpack = "unpack it first", *download = "download the data that it leads to",
+                     *dataset = "xarray or cdo write NetCDF of it",
                      *as_raw = "it describes raw data, which --raw reads";
 
 constexpr ForeignFormat formats_not_read[] = {
@@ -76,6 +77,10 @@ constexpr ForeignFormat formats_not_read[] = {
     {"a WebP picture", 8, "WEBP", "", pictures},
     {"a GIF picture", 0, "GIF8", "", pictures},
     {"a picture", 0, "", " .bmp .pgm .ppm .pnm ", pictures},
+    {"a Git LFS pointer", 0, "version https://git-lfs", "", "git lfs pull fetches the data"},
+    {"a web page", 0, "<!DOCTYPE html", "", download},
+    {"a web page", 0, "<!doctype html", "", download},
+    {"a web page", 0, "<html", "", download},
     {"a ZIP archive", 0, "PK\3\4", "", unpack},
     {"a gzip file", 0, "\x1f\x8b", "", unpack},
     {"a bzip2 file", 0, "BZh", "", unpack},

@@ -118,6 +118,8 @@ TEST_F(VolumeErrors, NameFormatsThatAreNotRead) {
     expect("a.hdr", marked(0, "ENVI\n"), {"found an ENVI header", "--raw"});
     expect("a.hdr", marked(0, "!INTERFILE :="), {"found an Interfile header"});
     expect("a.tif", marked(0, "GIF89a"), {"found a GIF picture"});
+    expect("a.nrrd", marked(0, "version https://git-lfs.github.com/spec/v1"), {"Git LFS pointer"});
+    expect("a.nii", marked(0, "<!DOCTYPE html>"), {"found a web page"});
     expect("a.nrrd", "", {"a.nrrd: the file is empty"});
     expect("a.any", "", {"a.any: the file is empty"});
     expect("a.any", zeros, {"unknown kind of volume"});
