@@ -65,6 +65,7 @@ constexpr ForeignFormat formats_not_read[] = {
     {"a Gaussian cube file", 0, "", " .cube .cub ", "ParaView saves it as .vti"},
     {"a SEG-Y file", 0, "", " .sgy .segy ", "segyio reads it, numpy.save writes .npy"},
     {"a description of raw data", 0, "ObjectFileName:", " .vgi ", as_raw},
+    {"an ERDAS Imagine file", 0, "EHFA_HEADER_TAG", "", "gdal_translate makes TIFF of it"},
     {"an ENVI header", 0, "ENVI", "", as_raw},
     {"a BOV header", 0, "", " .bov ", as_raw},
     {"a PVM volume", 0, "PVM", "", as_raw},

@@ -91,6 +91,8 @@ TEST_F(VolumeErrors, NameMistakesInNifti) {
     std::string pair = corpus_file("nifti/pair.hdr");
     pair.resize(348);
     expect("a.hdr", pair, {"a.img: data file of", "no such file"});
+    expect_error([&] { read_volume(write("alone.img", pair), {}); },
+                 {"alone.hdr: header of", "alone.img: no such file"});
     VolumeRequest request;
     request.time = 2;
     expect("a.nii", corpus_file("nifti/times.nii"),
