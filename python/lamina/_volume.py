@@ -133,6 +133,11 @@ class Volume:
         return self._core.lookup
 
     @property
+    def unit(self) -> str:
+        """The unit of lengths as the volume's file names it, such as ``"mm"``; empty if it names none."""
+        return self._core.unit
+
+    @property
     def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Smallest and largest corner of the box that is drawn, in world units."""
         lowest, highest = (_conversion.triple("bounds", corner) for corner in self._core.bounds)
@@ -158,7 +163,7 @@ class Volume:
         0
         """
         core = _lamina.Volume.over(np.array(self.array), self._core.steps, self._core.origin, self._core.centers,
-                                   self._core.lookup)
+                                   self._core.lookup, self._core.unit)
         volume = Volume._of(core, self._file, self._source)
         volume._conversion = self._conversion
         return volume

@@ -39,7 +39,8 @@ VolumeLookup lookup_of(const std::string& word) {
 
 // The array is C contiguous, z first; the package's Python code has made it so.
 Volume volume_over(const py::array& array, const std::array<Vector, 3>& steps, const Vector& origin,
-                   const std::array<std::string, 3>& centers, const std::string& lookup) {
+                   const std::array<std::string, 3>& centers, const std::string& lookup,
+                   const std::string& unit) {
     const auto type = sample_type(array.dtype());
     if (!type || array.ndim() != 3 || (array.flags() & py::array::c_style) == 0)
         throw py::type_error("expected a contiguous array [z, y, x] of a type that is drawn");
@@ -51,6 +52,7 @@ Volume volume_over(const py::array& array, const std::array<Vector, 3>& steps, c
     }
     grid.origin = to_glm(origin);
     grid.lookup = lookup_of(lookup);
+    grid.unit = unit;
     return {grid, *type, keep(array, array.data())};
 }
 
@@ -94,7 +96,7 @@ void bind_volume(py::module_& module) {
         py::arg("array"), py::arg("part"));
     py::class_<Volume>(module, "Volume")
         .def_static("over", &volume_over, py::arg("array"), py::arg("steps"), py::arg("origin"),
-                    py::arg("centers"), py::arg("lookup") = "linear")
+                    py::arg("centers"), py::arg("lookup") = "linear", py::arg("unit") = "")
         .def_static(
             "load",
             [](const std::string& scene, const std::string& only_below) {
@@ -119,6 +121,7 @@ void bind_volume(py::module_& module) {
                                    const bool linear = volume.grid().lookup == VolumeLookup::linear;
                                    return std::string(linear ? "linear" : "nearest");
                                })
+        .def_property_readonly("unit", [](const Volume& volume) { return volume.grid().unit; })
         .def_property_readonly("bounds", &bounds_of);
 }
 

@@ -227,9 +227,10 @@ TetMesh::TetMesh(MeshData data, const std::string& name)
     check_corners(name);
     drop_repeated_corners(name);
     check_points(name);
-    // Meshes of cells that share no points have more points than tets, others about a fifth. With
-    // so many, copies are looked for at once, so that faces are matched only once.
-    const bool cells_apart = points_.size() >= tets_.size();
+    // Meshes of cells that share no points have a point for each tet or two (quadratic cells),
+    // others one for five or six. With so many, copies are looked for at once, so that faces are
+    // matched only once.
+    const bool cells_apart = points_.size() >= tets_.size() / 2;
     if (!cells_apart) find_neighbors();
     const bool joined = find_copies();
     if (joined) drop_repeated_corners(name);
@@ -506,12 +507,17 @@ std::vector<std::int32_t> equal_points(const TetMesh& mesh, std::span<const doub
     const auto value = [&](std::int32_t point) {  // -0 becomes 0, and each NaN is one value
         return std::bit_cast<std::uint64_t>(scalar[point] + 0.0);
     };
+    constexpr double rounding = 1e-6;  // some 8 of float32's
+    const auto are_equal = [&](std::int32_t a, std::int32_t b) {
+        const double least = std::min(std::abs(scalar[a]), std::abs(scalar[b]));
+        return value(a) == value(b) || std::abs(scalar[a] - scalar[b]) <= rounding * least;
+    };
     std::vector<std::int32_t> equal(places.size());
     parallel_for(std::ssize(places), points_per_task, [&](std::size_t place) {
         const std::span copies(sorted.begin() + start[place], sorted.begin() + start[place + 1]);
         std::ranges::sort(copies, {}, [&](std::int32_t p) { return std::pair(value(p), p); });
         for (std::size_t i = 0, first = 0; i < copies.size(); ++i) {
-            if (value(copies[i]) != value(copies[first])) first = i;
+            if (!are_equal(copies[i], copies[first])) first = i;
             equal[copies[i]] = copies[first];
         }
     });

@@ -114,7 +114,8 @@ const MeshScalar* only_array(const std::vector<MeshScalar>& cell_scalars);
 // 0 if no other tet is around the point.
 std::vector<glm::dvec3> point_gradients(const TetMesh& mesh, std::span<const double> scalar);
 
-// Returns for each point the first one at its place with its value; empty if there are no copies.
+// Returns for each point one at its place with its value; empty if there are no copies. Values that
+// differ by up to 1e-6 of themselves are one: programs that write copies round each one for itself.
 std::vector<std::int32_t> equal_points(const TetMesh& mesh, std::span<const double> scalar);
 
 // Counts the faces of two tets that have different values at a corner.

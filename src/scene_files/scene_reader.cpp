@@ -14,6 +14,7 @@
 #include "scene_files/keys.h"
 #include "scene_files/scene_keys.h"
 #include "volume_files/folder_contents.h"
+#include "volume_files/foreign_files.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
@@ -24,6 +25,7 @@ FileKind kind_of_file(const std::filesystem::path& file, const std::filesystem::
     if (is_volume_file(file)) return FileKind::volume;
     if (is_mesh_file(file)) return FileKind::mesh;
     expect_no_folder(file);
+    expect_no_foreign_file(file);
     const std::string beginning = file_beginning(file, 64);
     const std::size_t first = beginning.find_first_not_of(" \t\r\n");
     // A file that cannot be read counts as a scene, whose reader says what is wrong.

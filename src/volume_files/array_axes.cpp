@@ -414,4 +414,11 @@ std::string only_array(const std::vector<std::string>& arrays, const std::string
     return arrays.front();
 }
 
+void fail_as_minc(const std::string& file) {
+    fail(
+        "{}: found MINC, whose slices have scales of their own, expected another format: mnc2nii "
+        "makes NIfTI of it",
+        file);
+}
+
 }  // namespace lamina

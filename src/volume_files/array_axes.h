@@ -70,4 +70,6 @@ void copy_in_order(ValueType type, const std::array<int, 3>& axes,
 std::string names_text(const std::vector<std::string>& arrays);
 std::string only_array(const std::vector<std::string>& arrays, const std::string& file);
 
+[[noreturn]] void fail_as_minc(const std::string& file);
+
 }  // namespace lamina

@@ -88,6 +88,13 @@ std::vector<double> numbers_of(hid_t object, const std::string& key) {
     return numbers;
 }
 
+std::optional<ValueType> type_of(hid_t object, const std::string& key) {
+    if (H5Aexists(object, key.c_str()) <= 0) return {};
+    const Hdf5Handle found(H5Aopen(object, key.c_str(), H5P_DEFAULT), H5Aclose);
+    const Hdf5Handle type(H5Aget_type(found.id()), H5Tclose);
+    return type_of_hdf5(type.id());
+}
+
 std::vector<std::string> texts_of(hid_t object, const std::string& key) {
     if (H5Aexists(object, key.c_str()) <= 0) return {};
     const Hdf5Handle found(H5Aopen(object, key.c_str(), H5P_DEFAULT), H5Aclose);
@@ -145,11 +152,15 @@ std::optional<ValueType> type_in(hid_t set) {
     return type_of_hdf5(type.id());
 }
 
-bool can_be_volume(hid_t set) {
+bool has_axes_of_volume(hid_t set) {
     const Hdf5Handle space(H5Dget_space(set), H5Sclose);
-    const Hdf5Handle type(H5Dget_type(set), H5Tclose);
     const int rank = H5Sget_simple_extent_ndims(space.id());
-    return rank >= 3 && rank <= most_rank && has_numbers(type.id());
+    return rank >= 3 && rank <= most_rank;
+}
+
+bool can_be_volume(hid_t set) {
+    const Hdf5Handle type(H5Dget_type(set), H5Tclose);
+    return has_axes_of_volume(set) && has_numbers(type.id());
 }
 
 Hdf5Array::Hdf5Array(Hdf5Handle set, std::string name)

@@ -40,9 +40,10 @@ class Hdf5Handle {
     Closer close_;
 };
 
-// Return an attribute of a group or data set: its numbers, up to 64; its texts; its texts one after
-// another, because Imaris stores each letter as one; or nothing.
+// Return an attribute of a group or data set: its numbers, up to 64, and their type; its texts; its
+// texts one after another, because Imaris stores each letter as one; or nothing.
 std::vector<double> numbers_of(hid_t object, const std::string& key);
+std::optional<ValueType> type_of(hid_t object, const std::string& key);
 std::vector<std::string> texts_of(hid_t object, const std::string& key);
 std::string text_of(hid_t object, const std::string& key);
 
@@ -57,7 +58,8 @@ bool stores_elsewhere(hid_t set);
 // Returns the type of a data set's samples, if they are numbers that lamina reads.
 std::optional<ValueType> type_in(hid_t set);
 
-// Tells if an array of this HDF5 type and data space can be a volume.
+// Tell if an array has as many axes as a volume has, and if it has numbers, too.
+bool has_axes_of_volume(hid_t set);
 bool can_be_volume(hid_t set);
 
 // An open data set of numbers.

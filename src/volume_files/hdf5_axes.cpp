@@ -165,15 +165,21 @@ class AxisReader {
         described.coordinates = text_of(array_.id(), "coordinates");
     }
 
-    // Reads coordinates from data sets with the names of axes beside the array (NeXus, xarray).
+    // Reads coordinates from data sets beside the array, with the names of axes (NeXus, xarray), or
+    // called dim1, dim2 and so on (EMD of electron microscopes, emdatasets.com).
     void read_coordinates_beside() {
-        for (ArrayAxis& axis : described.axes) {
-            if (axis.name.empty() || !axis.coordinates.empty()) continue;
+        const bool is_emd = H5Aexists(files_.group(parents_[0]).id(), "emd_group_type") > 0;
+        for (std::size_t i = 0; i < described.axes.size(); ++i) {
+            ArrayAxis& axis = described.axes[i];
+            const std::string name = is_emd ? fmt::format("dim{}", i + 1) : axis.name;
+            if (name.empty() || !axis.coordinates.empty()) continue;
             const std::string path =
-                fmt::format("{}/{}", parents_[0] == "/" ? "" : parents_[0], axis.name);
-            if (axis.name.find('/') != axis.name.npos || !files_.has(path)) continue;
+                fmt::format("{}/{}", parents_[0] == "/" ? "" : parents_[0], name);
+            if (name.find('/') != name.npos || !files_.has(path)) continue;
             const Hdf5Handle set = files_.open_beside(path);
-            if (set.valid()) read_coordinates(set.id(), array_.name(), axis);
+            if (!set.valid()) continue;
+            if (is_emd) axis.name = text_of(set.id(), "name");
+            read_coordinates(set.id(), array_.name(), axis);
         }
     }
 
@@ -256,13 +262,13 @@ class AxisReader {
 }  // namespace
 
 PackedValues values_in(hid_t set, const std::string& name, ValueType type, bool has_defaults) {
-    const auto numbers = [set](const char* key) { return numbers_of(set, key); };
-    const auto text = [set, &numbers](const char* key) {
-        const std::string found = text_of(set, key);
-        const bool is_other = found.empty() && numbers(key).empty() && H5Aexists(set, key) > 0;
-        return is_other ? "neither text nor up to 64 numbers" : found;
+    const auto attribute = [set](const char* key) {
+        PackedAttribute found{numbers_of(set, key), type_of(set, key), text_of(set, key)};
+        if (found.numbers.empty() && found.text.empty() && H5Aexists(set, key) > 0)
+            found.text = "neither text nor up to 64 numbers";
+        return found;
     };
-    return PackedValues(name, type, has_defaults, numbers, text);
+    return PackedValues(name, type, has_defaults, attribute);
 }
 
 DescribedArray describe_hdf5(Hdf5Files& files, const Hdf5Array& array, const Hdf5Layout& layout,
@@ -272,6 +278,11 @@ DescribedArray describe_hdf5(Hdf5Files& files, const Hdf5Array& array, const Hdf
         reader.name_axes(words_in(layout.labels, array.shape().size()));
         return reader.described;
     }
+    if (H5Aexists(array.id(), "MATLAB_class") > 0)
+        warn(
+            fmt::format("{}: MATLAB has written it: its first axis (rows) is taken for x, its "
+                        "second (columns) for y",
+                        array.name()));
     reader.read_axistags();
     reader.read_image(contents);
     reader.read_labels_and_scales();

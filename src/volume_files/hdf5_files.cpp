@@ -206,16 +206,20 @@ void Hdf5Files::expect_samples(const std::string& file, hid_t set, int depth) {
 std::vector<std::string> Hdf5Files::arrays() {
     FoundLinks links = links_in(file(), name());
     links.sets.insert(links.sets.end(), links.links.begin(), links.links.end());
+    std::vector<std::string> others;  // whose types are not read
     std::erase_if(links.sets, [&](const std::string& path) {
         try {
             const Hdf5Handle set = open_beside(path);
-            return !set.valid() || !can_be_volume(set.id());
+            if (set.valid() && can_be_volume(set.id())) return false;
+            if (set.valid() && has_axes_of_volume(set.id())) others.push_back(path);
+            return true;
         } catch (const Error&) {
             return false;  // the Error is thrown when the array is read
         }
     });
-    // A link that leads nowhere is named when it is read.
-    return links.sets.empty() ? links.links : links.sets;
+    // A link that leads nowhere, and a type that is not read, are named when they are read.
+    if (links.sets.empty()) return links.links.empty() ? others : links.links;
+    return links.sets;
 }
 
 void Hdf5Files::find_files(const std::string& path) {

@@ -377,12 +377,8 @@ Hdf5Layout hdf5_layout(Hdf5Files& files, const std::string& named, const VolumeR
     if (request.level) take(files, "level", request.level, 1);
     if ((array.empty() || array == "/ITKImage/0/VoxelData") && files.has("/ITKImage/0/VoxelData"))
         return itk_image(files, request);
-    if ((array.empty() || array.starts_with("/minc-2.0/")) && files.has("/minc-2.0")) {
-        fail(
-            "{}: found MINC, whose slices have scales of their own, expected another format: "
-            "mnc2nii makes NIfTI of it",
-            files.name());
-    }
+    if ((array.empty() || array.starts_with("/minc-2.0/")) && files.has("/minc-2.0"))
+        fail_as_minc(files.name());
     if (array.empty()) contents.arrays = files.arrays();
     return Hdf5Layout(array.empty() ? only_array(contents.arrays, files.name()) : array, request);
 }

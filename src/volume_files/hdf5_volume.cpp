@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume_files/hdf5_volume.h"
 
+#include <hdf5_hl.h>
+
 #include <cstring>
 #include <filesystem>
 #include <type_traits>
@@ -15,6 +17,19 @@ namespace {
 // Returns a type of as many bytes without a sign.
 ValueType without_sign(ValueType type) {
     return number_type(bytes_of(type), true, false).value_or(type);
+}
+
+// Tells if NetCDF has written a file, and filled samples of an array that nobody has written. It
+// gives every dimension a scale; newer versions write _NCProperties, too.
+bool has_fill_of_netcdf(hid_t file, const Hdf5Array& array) {
+    const Hdf5Handle root(H5Gopen2(file, "/", H5P_DEFAULT), H5Gclose);
+    const Hdf5Handle properties(H5Dget_create_plist(array.id()), H5Pclose);
+    H5D_fill_time_t when = H5D_FILL_TIME_IFSET;
+    H5Pget_fill_time(properties.id(), &when);
+    bool has_scales = true;
+    for (std::size_t axis = 0; axis < array.shape().size(); ++axis)
+        has_scales &= H5DSget_num_scales(array.id(), static_cast<unsigned>(axis)) > 0;
+    return when != H5D_FILL_TIME_NEVER && (has_scales || H5Aexists(root.id(), "_NCProperties") > 0);
 }
 
 // Writes fields one after another: plain ones as they lie in memory, texts and lists with their
@@ -86,11 +101,9 @@ Hdf5Volume::Hdf5Volume(const std::string& file, const std::string& array,
     head_.files = files_.paths();
     head_.shape = array_.shape();
     const hid_t id = array_.id();
-    const Hdf5Handle root(H5Gopen2(files_.file(), "/", H5P_DEFAULT), H5Gclose);
-    const bool is_netcdf = H5Aexists(root.id(), "_NCProperties") > 0;
-    values_ =
-        values_in(id, array_.name(),
-                  layout_.is_unsigned ? without_sign(array_.type()) : array_.type(), is_netcdf);
+    values_ = values_in(id, array_.name(),
+                        layout_.is_unsigned ? without_sign(array_.type()) : array_.type(),
+                        has_fill_of_netcdf(files_.file(), array_));
     head_.type = values_.type();
     head_.scale = values_.scale();
     head_.offset = values_.offset();
@@ -159,7 +172,10 @@ void Hdf5Volume::read(const SampleBox& box, bool is_all, void* to) const {
     if (!in_order)
         copy_in_order(array_.type(), axes, count, std::vector<std::int64_t>(count.size()),
                       stored.data(), marks ? ordered.data() : to);
-    if (marks) values_.mark(box.count(), is_all, in_order ? stored.data() : ordered.data(), to);
+    if (!marks) return;
+    const std::int64_t missing =
+        values_.mark(box.count(), in_order ? stored.data() : ordered.data(), to);
+    if (is_all) values_.say_missing(missing);
 }
 
 }  // namespace lamina

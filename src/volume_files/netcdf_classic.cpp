@@ -9,6 +9,7 @@
 #include <bit>
 #include <map>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/memory.h"
@@ -36,11 +37,7 @@ std::optional<ValueType> type_of_netcdf(std::uint64_t number) {
     return types[number];
 }
 
-struct NetcdfAttribute {
-    std::string text;
-    std::vector<double> numbers;
-};
-using NetcdfAttributes = std::map<std::string, NetcdfAttribute>;
+using NetcdfAttributes = std::map<std::string, PackedAttribute>;
 
 struct NetcdfVariable {
     std::string name;
@@ -194,7 +191,8 @@ class NetcdfFile {
                 fail("{}: attribute {}: found {} values, expected fewer", name_, key, length);
             }
             const std::string values = padded_text(length * bytes);
-            NetcdfAttribute& entry = attributes[key];
+            PackedAttribute& entry = attributes[key];
+            entry.type = type;
             if (type)
                 entry.numbers = values_from_bytes<double>(*type, values.data(), length, is_swapped);
             else
@@ -266,20 +264,20 @@ const NetcdfVariable& wanted_variable(const NetcdfFile& file, std::string wanted
     return *found;
 }
 
-std::function<std::string(const char*)> texts_of(const NetcdfVariable& variable) {
+PackedValues::Attribute attributes_of(const NetcdfVariable& variable) {
     return [&variable](const char* key) {
         const auto found = variable.attributes.find(key);
-        return found == variable.attributes.end() ? std::string() : found->second.text;
+        return found == variable.attributes.end() ? PackedAttribute() : found->second;
     };
 }
 
+std::function<std::string(const char*)> texts_of(const NetcdfVariable& variable) {
+    return [&variable](const char* key) { return attributes_of(variable)(key).text; };
+}
+
 PackedValues values_of(const NetcdfFile& file, const NetcdfVariable& variable) {
-    const auto numbers = [&](const char* key) {
-        const auto found = variable.attributes.find(key);
-        return found == variable.attributes.end() ? std::vector<double>() : found->second.numbers;
-    };
-    return PackedValues(file.name() + ":/" + variable.name, *variable.type, true, numbers,
-                        texts_of(variable));
+    return PackedValues(file.name() + ":/" + variable.name, *variable.type, true,
+                        attributes_of(variable));
 }
 
 DescribedArray describe(const NetcdfFile& file, const NetcdfVariable& variable) {
@@ -304,40 +302,81 @@ DescribedArray describe(const NetcdfFile& file, const NetcdfVariable& variable) 
     return described;
 }
 
-// Reads the samples that are taken of a variable, in the order of the volume, by rows: the samples
-// at one index of the first dimension.
-std::shared_ptr<void> read_variable(const NetcdfFile& file, const NetcdfVariable& variable,
-                                    const ArrayPlace& place) {
-    std::vector<std::int64_t> counts, index = place.index;
-    for (const std::size_t number : variable.dimensions)
-        counts.push_back(file.dimensions[number].size);
-    const std::size_t each = bytes_of(*variable.type);
-    const std::uint64_t row = file.is_record(variable) ? file.row_bytes(variable, false)
-                                                       : file.row_bytes(variable, false) /
-                                                             static_cast<std::uint64_t>(counts[0]);
-    const std::uint64_t step = file.is_record(variable) ? file.record_bytes : row;
-    const bool is_taken = std::ranges::find(place.axes, 0) == place.axes.end();
-    const auto first = static_cast<std::uint64_t>(is_taken ? index[0] : 0);
-    if (is_taken) counts[0] = 1;
-    index[0] = 0;
-    const auto rows = static_cast<std::uint64_t>(counts[0]);
-    const std::uint64_t size = file.file().size(), last = (first + rows - 1) * step;
-    if (variable.begin > size || last > size - variable.begin ||
-        row > size - variable.begin - last) {
-        fail("{}: {}: truncated: the header promises {} bytes at byte {}, the file has {}",
-             file.name(), variable.name, last + row, variable.begin, size);
+// Reads the samples that are taken of a variable, in the order of the volume. If z is the slowest
+// of the dimensions of which more than one index is taken, it reads slice by slice.
+class VariableReader {
+  public:
+    VariableReader(const NetcdfFile& file, const NetcdfVariable& variable, const ArrayPlace& place)
+        : file_(file), variable_(variable), place_(place), index_(place.index) {
+        for (const std::size_t number : variable.dimensions)
+            counts_.push_back(file.dimensions[number].size);
+        row_ = file.row_bytes(variable, false);
+        step_ = file.record_bytes;
+        if (!file.is_record(variable)) step_ = row_ /= static_cast<std::uint64_t>(counts_[0]);
+        for (first_ = 0; first_ + 1 < counts_.size() && !is_in_space(first_);) {
+            begin_ += static_cast<std::uint64_t>(index_[first_]) * step_;
+            counts_[first_] = 1;
+            index_[first_] = 0;
+            step_ = row_ /= static_cast<std::uint64_t>(counts_[++first_]);
+        }
+        const auto rows = static_cast<std::uint64_t>(counts_[first_]);
+        slices_ = place.axes[2] == static_cast<int>(first_) ? rows : 1;
+        rows_ = rows / slices_;
+        samples_ = static_cast<std::uint64_t>(place.grid.sample_count()) / slices_;
+        counts_[first_] = static_cast<std::int64_t>(rows_);
+        // Each of the three is less than 2^62.
+        const std::uint64_t size = file.file().size(), end = begin_ + (rows - 1) * step_ + row_;
+        if (variable.begin > size || end > size - variable.begin) {
+            fail("{}: {}: truncated: the header promises {} bytes at byte {}, the file has {}",
+                 file.name(), variable.name, end, variable.begin, size);
+        }
+        begin_ += variable.begin;
     }
-    const std::shared_ptr<void> stored = filled_memory(rows * row);
-    for (std::uint64_t i = 0; i < rows; ++i)
-        file.file().read(variable.begin + (first + i) * step,
-                         static_cast<char*>(stored.get()) + i * row, row);
-    if (is_swapped) swap_bytes(stored.get(), static_cast<std::int64_t>(rows * row / each), each);
-    const std::size_t bytes = static_cast<std::size_t>(place.grid.sample_count()) * each;
-    if (bytes == rows * row && place.is_in_order()) return stored;
-    std::shared_ptr<void> ordered = filled_memory(bytes);
-    copy_in_order(*variable.type, place.axes, counts, index, stored.get(), ordered.get());
-    return ordered;
-}
+
+    // Returns the bytes that reading takes beside the samples.
+    std::uint64_t scratch_bytes() const {
+        return rows_ * row_ + samples_ * bytes_of(*variable_.type);
+    }
+
+    std::shared_ptr<void> read(const PackedValues& values) const {
+        const std::size_t each = bytes_of(*variable_.type),
+                          bytes = samples_ * bytes_of(values.type());
+        std::shared_ptr<void> samples = filled_memory(slices_ * bytes);
+        const std::shared_ptr<void> stored = filled_memory(rows_ * row_),
+                                    ordered = filled_memory(samples_ * each);
+        std::int64_t missing = 0;
+        for (std::uint64_t i = 0; i < slices_; ++i) {
+            check_interrupt();
+            for (std::uint64_t row = 0; row < rows_; ++row)
+                file_.file().read(begin_ + (i * rows_ + row) * step_,
+                                  static_cast<char*>(stored.get()) + row * row_, row_);
+            if (is_swapped)
+                swap_bytes(stored.get(), static_cast<std::int64_t>(rows_ * row_ / each), each);
+            char* const to = static_cast<char*>(samples.get()) + i * bytes;
+            const bool marks = values.can_be_missing();
+            copy_in_order(*variable_.type, place_.axes, counts_, index_, stored.get(),
+                          marks ? ordered.get() : to);
+            if (marks)
+                missing += values.mark(static_cast<std::int64_t>(samples_), ordered.get(), to);
+        }
+        values.say_missing(missing);
+        return samples;
+    }
+
+  private:
+    bool is_in_space(std::size_t dimension) const {
+        return std::ranges::find(place_.axes, static_cast<int>(dimension)) != place_.axes.end();
+    }
+
+    const NetcdfFile& file_;
+    const NetcdfVariable& variable_;
+    const ArrayPlace& place_;
+    std::vector<std::int64_t> counts_, index_;
+    std::size_t first_ = 0;  // the slowest dimension of which more than one index is taken
+    // `row_`: bytes of one index of `first_`, which are `step_` apart.
+    std::uint64_t begin_ = 0, row_ = 0, step_ = 0;
+    std::uint64_t slices_ = 1, rows_ = 1, samples_ = 1;  // rows and samples of each slice
+};
 
 }  // namespace
 
@@ -351,6 +390,7 @@ Volume open_netcdf_classic(const std::filesystem::path& path, const VolumeReques
                            const VolumeUse& use) {
     const ArrayPath named = array_path(path);
     const NetcdfFile file(named.file);
+    if (file.variable("image-max") != nullptr) fail_as_minc(file.name());
     VolumeContents contents;
     const NetcdfVariable& variable =
         wanted_variable(file, named.array.empty() ? request.array : named.array, contents);
@@ -358,17 +398,15 @@ Volume open_netcdf_classic(const std::filesystem::path& path, const VolumeReques
     const ArrayPlace place = place_array(described, request, contents);
     if (use.contents != nullptr) *use.contents = contents;
     const PackedValues values = values_of(file, variable);
-    const std::int64_t count = place.grid.sample_count();
-    expect_room(path.string(), static_cast<std::uint64_t>(count) * bytes_of(values.type()), use,
-                "classic NetCDF is read as a whole");
-    std::shared_ptr<void> samples = read_variable(file, variable, place);
-    if (values.can_be_missing()) {
-        const std::shared_ptr<void> stored = samples;
-        samples = filled_memory(static_cast<std::size_t>(count) * bytes_of(values.type()));
-        values.mark(count, true, stored.get(), samples.get());
-    }
-    return drawn_volume(place.grid,
-                        {path.string(), values.type(), samples, values.scale(), values.offset()});
+    const VariableReader reader(file, variable, place);
+    const bool is_drawn = drawn_type(values.type()) && values.scale() == 1 && values.offset() == 0;
+    const std::uint64_t each = bytes_of(values.type()) + (is_drawn ? 0 : sizeof(float));
+    expect_room(
+        path.string(),
+        static_cast<std::uint64_t>(place.grid.sample_count()) * each + reader.scratch_bytes(), use,
+        "classic NetCDF is read as a whole");
+    return drawn_volume(place.grid, {path.string(), values.type(), reader.read(values),
+                                     values.scale(), values.offset()});
 }
 
 std::vector<std::filesystem::path> files_of_netcdf_classic(const std::filesystem::path& path) {

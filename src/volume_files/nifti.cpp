@@ -287,19 +287,21 @@ Path header_path(const Path& path) {
 }
 
 NiftiHeader expected_header(const Path& path) {
-    const auto header = read_nifti_header(header_path(path));
+    const Path file = header_path(path);
+    if (file != path) expect_named_file(file, "header of " + path.string());
+    const auto header = read_nifti_header(file);
     if (!header) {
-        std::string start = file_beginning(header_path(path), 4);
+        std::string start = file_beginning(file, 4);
         start.resize(4);
         for (const bool swap : {false, true}) {
             if (HeaderBytes(start, swap).at<std::int32_t>(0) != header1_bytes) continue;
             fail(
                 "{}: found an ANALYZE 7.5 header, which does not say where left is, expected "
                 "NIfTI: nibabel or FSL's fslchfiletype converts it",
-                header_path(path).string());
+                file.string());
         }
         fail("{}: no NIfTI header: expected 348 or 540 in its first 4 bytes, and its magic",
-             header_path(path).string());
+             file.string());
     }
     return *header;
 }

@@ -33,6 +33,9 @@ bool is_apart(const Nrrd& nrrd, unsigned axis) {
         return !nrrdKindIsDomain(kind) || kind == nrrdKindTime;
     for (unsigned other = 0; other < nrrd.dim; ++other)
         if (has_direction(nrrd, other)) return !has_direction(nrrd, axis);
+    const auto is_spaced = [&](unsigned i) { return !std::isnan(nrrd.axis[i].spacing); };
+    for (unsigned other = 0; other < nrrd.dim && kind == nrrdKindUnknown; ++other)
+        if (is_spaced(other)) return !is_spaced(axis) && std::isnan(nrrd.axis[axis].min);
     return false;
 }
 
@@ -55,8 +58,8 @@ std::vector<unsigned> volume_axes(const std::string& file, const Nrrd& nrrd) {
     }
     if (axes.size() != 3) {
         fail(
-            "{}: dimension: found {} axes (sizes {}), {} of them in space by kinds and directions, "
-            "expected 3",
+            "{}: dimension: found {} axes (sizes {}), {} of them in space by kinds, directions "
+            "and spacings, expected 3",
             file, nrrd.dim, fmt::join(sizes, " "), axes.size());
     }
     for (const unsigned axis : axes) {
@@ -123,6 +126,11 @@ void set_steps_by_directions(const std::string& file, const Nrrd& nrrd,
     if (nrrd.spaceDim != 3) {
         fail("{}: space: found {} dimensions, expected 3", file, nrrd.spaceDim);
     }
+    if (nrrd.space == nrrdSpace3DLeftHanded)
+        warn(
+            fmt::format("{}: space: 3D-left-handed axes are drawn as right-handed ones, which "
+                        "shows a mirror image",
+                        file));
     for (std::size_t i = 0; i < 3; ++i) {
         if (!has_direction(nrrd, axes[i])) {
             fail("{}: space directions: axis {} has none, expected three directions", file,

@@ -12,19 +12,23 @@
 
 namespace lamina {
 
+// An attribute of an array: numbers, or a text; neither: there is none.
+struct PackedAttribute {
+    std::vector<double> numbers;
+    std::optional<ValueType> type;  // of the numbers, as stored
+    std::string text;
+};
+
 // Unpacks an array's values as its attributes of NetCDF say (CF conventions, sections 2.5.1 and
-// 8.1).
+// 8.1; NetCDF Users' Guide, appendix A).
 class PackedValues {
   public:
-    // Return the numbers and the text of an attribute, or none.
-    using Numbers = std::function<std::vector<double>(const char* key)>;
-    using Text = std::function<std::string(const char* key)>;
+    using Attribute = std::function<PackedAttribute(const char* key)>;
 
     PackedValues() = default;
-    // `type`: the samples', as stored. `has_defaults`: floats may have NetCDF's own fill value,
-    // too. `name`: for messages. Throws Error.
-    PackedValues(std::string name, ValueType type, bool has_defaults, const Numbers& numbers,
-                 const Text& text);
+    // `type`: the samples', as stored. `has_defaults`: samples may have NetCDF's own fill values.
+    // `name`: for messages. Throws Error.
+    PackedValues(std::string name, ValueType type, bool has_defaults, const Attribute& attribute);
 
     // Returns the type of the samples that mark() makes.
     ValueType type() const;
@@ -33,8 +37,9 @@ class PackedValues {
     double offset() const { return offset_; }
 
     // Makes floating-point numbers of `count` stored samples, in which missing ones are NaN; only
-    // if can_be_missing(). If `reports`, warns of missing ones and counts them.
-    void mark(std::int64_t count, bool reports, const void* from, void* to) const;
+    // if can_be_missing(). Returns how many are missing.
+    std::int64_t mark(std::int64_t count, const void* from, void* to) const;
+    void say_missing(std::int64_t count) const;  // if it is not 0
 
     // Returns what stored numbers, as double of their type, stand for: scaled; NaN if missing.
     std::vector<double> meant(std::vector<double> stored) const;
@@ -42,7 +47,10 @@ class PackedValues {
   private:
     bool is_missing(double value) const;
     double turned(double value) const;
-    ValueType with_sign_of(ValueType type, const Numbers& numbers, const Text& text) const;
+    ValueType with_sign_of(ValueType type, const PackedAttribute& told) const;
+    void read_missing(ValueType type, bool has_defaults, const Attribute& attribute);
+    void read_limits(const std::optional<ValueType>& packing, const Attribute& attribute);
+    double noted(const char* key, double value);
 
     std::string name_;
     ValueType stored_ = ValueType::uint8;  // "_Unsigned" may have changed its sign

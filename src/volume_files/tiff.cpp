@@ -154,14 +154,19 @@ class TiffStack {
             return count;
         });
         const std::vector<Path> there = std::move(files_);
+        std::vector<std::string> missing;
         files_.clear();
         for (const std::string& file : found_.files) {
             files_.push_back(folder / file);
             std::error_code unknown;
             if (!std::filesystem::exists(files_.back(), unknown))
-                say("{}: no such file: {} names it, and it has some of the planes",
-                    files_.back().string(), name_);
+                missing.push_back(files_.back().string());
         }
+        if (!missing.empty())
+            say("{}: no such file: {} of the {} files that {} names, which have some of the "
+                "planes, "
+                "are missing",
+                missing[0], missing.size(), files_.size(), name_);
         const std::set<Path> known(files_.begin(), files_.end());
         for (const Path& file : there) {
             if (!known.contains(file))

@@ -234,6 +234,7 @@ void TiffFile::check_makers(bool described) const {
         {34412, "Zeiss (LSM)", nullptr},
         {34361, "Olympus (FluoView)", nullptr},
         {65326, "Nikon (NIS-Elements)", nullptr},
+        {51123, "Micro-Manager", nullptr},
         {34118, "Zeiss (SEM)", nullptr},
         {34682, "FEI", nullptr},
         {33550, "GeoTIFF (ModelPixelScale)", nullptr},

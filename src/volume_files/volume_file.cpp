@@ -12,6 +12,7 @@
 #include "base/input_file.h"
 #include "volume_files/bricked_copy.h"
 #include "volume_files/folder_contents.h"
+#include "volume_files/foreign_files.h"
 #include "volume_files/volume_formats.h"
 
 namespace lamina {
@@ -122,13 +123,22 @@ bool has_extension(const VolumeFormat& format, const Path& path) {
     });
 }
 
-// Returns the format by content, else by extension in any case; null if neither is known.
-const VolumeFormat* format_of(const Path& path) {
+const VolumeFormat* format_by_content(const Path& path) {
     for (const VolumeFormat& format : formats)
         if (format.recognizes(path)) return &format;
+    return nullptr;
+}
+
+// Returns the format by extension in any case; null if none has it.
+const VolumeFormat* format_by_name(const Path& path) {
     for (const VolumeFormat& format : formats)
         if (has_extension(format, path)) return &format;
     return nullptr;
+}
+
+const VolumeFormat* format_of(const Path& path) {
+    const VolumeFormat* const format = format_by_content(path);
+    return format == nullptr ? format_by_name(path) : format;
 }
 
 // Opens a file of samples without a header by the layout request.raw: x fastest, samples 1 apart
@@ -165,7 +175,11 @@ const VolumeFormat& expected_format(const Path& path) {
     const auto status = std::filesystem::status(path, absent);
     if (std::filesystem::exists(status) && !std::filesystem::is_directory(status))
         expect_regular_file(path);
-    const VolumeFormat* const format = format_of(path);
+    const VolumeFormat* format = format_by_content(path);
+    if (format == nullptr) {
+        format = format_by_name(path);
+        expect_no_foreign_file(path, format != nullptr);  // others use such extensions, too
+    }
 #ifndef LAMINA_HAS_HDF5
     if (is_hdf5(path)) {
         fail("{}: found an HDF5 file: this lamina was built without HDF5 (LAMINA_WITH_HDF5)",

@@ -249,8 +249,9 @@ Volume open_pvd(const Path& path, VolumeRequest request, const VolumeUse& use) {
 
 void refuse_vtk_type(const std::string& file, const std::string& type) {
     const char* advice = "draw one of the files that it names";
-    if (type.find("tructured") != std::string::npos)
-        advice = "ParaView's filter Resample To Image makes image data of a curved grid";
+    if (type.find("tructured") != std::string::npos || type.find("HyperTree") != std::string::npos)
+        advice = "ParaView's filter Resample To Image makes image data of such a grid";
+    if (type.find("Table") != std::string::npos) advice = "a table has no places";
     if (type.find("oly") != std::string::npos)
         advice = "a surface has no samples between its faces";
     fail(

@@ -136,7 +136,9 @@ class VtkImage {
             const bool about_samples = array.name.starts_with("vtk");
             if (!about_samples || array.name == request_.array) offered.push_back(&array);
         }
-        if (offered.empty()) fail("{}: no array of numbers in PointData and CellData", head_.file);
+        if (offered.empty())
+            fail("{}: no array of numbers in PointData and CellData (bits and text are not read)",
+                 head_.file);
         const std::string& name = request_.array.empty() ? part.scalars : request_.array;
         auto found = std::ranges::find(offered, name, &VtkImageArray::name);
         if (found == offered.end() && !request_.array.empty()) {

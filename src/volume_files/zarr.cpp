@@ -215,7 +215,7 @@ Volume volume_of(ZarrChunks chunks, const Grid& grid, const VolumeUse& use) {
     if (values.can_be_missing()) {
         const std::shared_ptr<void> marked =
             filled_memory(static_cast<std::size_t>(grid.sample_count()) * bytes_of(values.type()));
-        values.mark(grid.sample_count(), true, samples.get(), marked.get());
+        values.say_missing(values.mark(grid.sample_count(), samples.get(), marked.get()));
         samples = marked;
     }
     return drawn_volume(grid, {name, values.type(), samples, values.scale(), values.offset()});

@@ -91,18 +91,21 @@ DescribedArray describe_zarr(const ZarrArray& array, const ZarrImage& image) {
 }
 
 PackedValues zarr_values(const ZarrArray& array) {
-    const auto numbers = [&](const char* key) {
-        std::vector<double> found = zarr_numbers(array.attributes, key);
-        if (found.empty() && std::string_view(key) == "_FillValue") found = array.missing;
-        return found;
-    };
-    // Returns other values than texts and numbers, such as true, as they are spelled.
-    const auto text = [&](const char* key) {
+    // Gives whole numbers the samples' type, and returns other values than texts and numbers, such
+    // as true, as they are spelled.
+    const auto attribute = [&](const char* key) {
+        PackedAttribute told{zarr_numbers(array.attributes, key), array.type, ""};
         const Json* const found = member_of(array.attributes, key);
-        if (found == nullptr || found->is_null() || !numbers(key).empty()) return std::string();
-        return found->is_string() ? found->get<std::string>() : json_excerpt(*found);
+        if (told.numbers.empty() && std::string_view(key) == "_FillValue")
+            told.numbers = array.missing;
+        if (found == nullptr || found->is_null()) return told;
+        const auto is_float = [](const Json& one) { return one.is_number_float(); };
+        if (std::ranges::any_of(*found, is_float)) told.type = ValueType::float64;
+        if (told.numbers.empty())
+            told.text = found->is_string() ? found->get<std::string>() : json_excerpt(*found);
+        return told;
     };
-    return PackedValues(array.folder.string(), array.type, false, numbers, text);
+    return PackedValues(array.folder.string(), array.type, false, attribute);
 }
 
 }  // namespace lamina

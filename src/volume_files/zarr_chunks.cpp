@@ -344,7 +344,7 @@ ZarrSource::ZarrSource(ZarrChunks chunks, PackedValues values)
 
 void ZarrSource::decode(std::int64_t chunk, const SampleBox& box, void* to) const {
     chunks_.copy(chunks_.decoded(chunk), chunk, box, static_cast<char*>(to));
-    if (values_.can_be_missing()) values_.mark(box.count(), false, to, to);
+    if (values_.can_be_missing()) values_.mark(box.count(), to, to);
 }
 
 bool ZarrSource::is_zero(std::int64_t chunk) const {

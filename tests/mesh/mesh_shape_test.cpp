@@ -85,10 +85,15 @@ TEST(MeshShape, EdgeRatioIsLongestOverShortest) {
     data.points = {{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {0, 0, .5}};
     data.tets = {{0, 1, 2, 3}};
     EXPECT_EQ(edge_lengths(TetMesh(data, "tet")).ratio(), 10);
-    // Two inner points at one place, and tets between them: no face is open at these points.
+    // Two inner points at one place, and tets between them: no face is open at these points. A box
+    // beside them makes points fewer than half as many as tets: copies inside are not looked for.
+    const MeshData beside = box({3, 3, 3});
     data.points.insert(data.points.end(), 2, glm::dvec3(.5, .5, .1));
     data.tets = {{0, 4, 2, 3}, {0, 1, 4, 3}, {0, 1, 2, 4}, {5, 1, 2, 3},
                  {4, 5, 2, 3}, {4, 1, 5, 3}, {4, 1, 2, 5}};
+    for (const Tet& tet : beside.tets)
+        data.tets.push_back({tet[0] + 6, tet[1] + 6, tet[2] + 6, tet[3] + 6});
+    for (const glm::dvec3& point : beside.points) data.points.push_back(point + 10.);
     EXPECT_EQ(edge_lengths(TetMesh(data, "tets")).ratio(), INFINITY);
 }
 

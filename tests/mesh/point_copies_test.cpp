@@ -209,6 +209,26 @@ TEST(PointCopies, WithEqualValuesShareTheirGradient) {
     }
 }
 
+// Each copy's value is rounded for itself, by up to 4e-7. Gradients then differ by as much, of
+// values up to 20, over edges of 1 (with a factor of 10 for the sums of a tet); a mean over each
+// cell alone would be off by some .1. A jump of 1e-5 is one.
+TEST(PointCopies, WithValuesThatDifferByRoundingShareTheirGradient) {
+    auto [shared, split] = Pair(test::kuhn_box({3, 3, 2}, bent));
+    const auto expected = point_gradients(shared, shared.point_scalars()[0].values);
+    std::vector<double> values = split.point_scalars()[0].values;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] *= 1 + 2e-7 * static_cast<double>(static_cast<int>(i % 5) - 2);
+    const auto found = point_gradients(split, values);
+    for (std::size_t tet = 0; tet < shared.tets().size(); ++tet) {
+        for (std::size_t i = 0; i < 4; ++i)
+            EXPECT_LT(glm::distance(found[split.tets()[tet][i]], expected[shared.tets()[tet][i]]),
+                      4e-7 * 20 * 10);
+    }
+    EXPECT_EQ(count_jumps(split, values), 0);
+    for (std::size_t i = 0; i < values.size(); i += 4) values[i] *= 1 + 1e-5;
+    EXPECT_GT(count_jumps(split, values), 0);
+}
+
 // The field is linear in each cell, and jumps between cells. A mean over two cells that took their
 // values for those of one point would be off by up to 10. Rounding: the values, up to 20, have
 // errors of 2e-15 over edges of 1, in sums of some 10 products.

@@ -237,6 +237,16 @@ def test_volumes_come_back_from_files(blob, tmp_path):
         lamina.read(tmp_path / "nothing.nrrd")
 
 
+def test_units_of_files_are_kept(tmp_path):
+    header = "NRRD0004\ntype: uint8\ndimension: 3\nspace: 3D-right-handed\nspace units: \"um\" \"um\" \"um\"\n"
+    header += "sizes: 2 2 2\nspace directions: (1,0,0) (0,1,0) (0,0,1)\nencoding: raw\n\n"
+    (tmp_path / "a.nrrd").write_bytes(header.encode() + bytes(8))
+    volume = lamina.read(tmp_path / "a.nrrd").copy()
+    assert volume.unit == "um" and lamina.Volume(volume.array).unit == ""
+    volume.save(tmp_path / "b.nrrd")
+    assert lamina.read(tmp_path / "b.nrrd").unit == "um"
+
+
 def test_what_a_file_does_not_say_is_told(function, tmp_path):
     stored = np.arange(2 * 3 * 4, dtype=">u2").reshape(2, 3, 4)
     (tmp_path / "a.bin").write_bytes(b"head" + stored.tobytes())

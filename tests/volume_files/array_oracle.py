@@ -299,6 +299,29 @@ def xarray_cases():
     zarr3.write(third + "/air", floats, (2, 2, 6), dimension_names=["lat", "level", "lon"],
                 attributes={"_FillValue": base64.b64encode(struct.pack("<d", -9999.25)).decode()})
     case("xarray3", "xarray3.zarr", marked.transpose(1, 0, 2), [[.5, 0, 0], [0, 1, 0], [0, 0, 1]], (10, 0, 0))
+    # Packed coordinates, of which a chunk may be missing.
+    places = zarr.open_group(f"{FOLDER}/packed_places.zarr", mode="w")
+    for axis, (word, size) in enumerate(zip(("lev", "lat", "lon"), (4, 5, 6))):
+        stored = places.create_dataset(word, data=np.arange(size, dtype="<i2"), chunks=(3,), fill_value=None)
+        stored.attrs.update(_ARRAY_DIMENSIONS=[word], scale_factor=.25 * (axis + 1), add_offset=10. * axis, units="m")
+    ramp = samples("<i2", (4, 5, 6))
+    stored = places.create_dataset("v", data=ramp, fill_value=None)
+    stored.attrs["_ARRAY_DIMENSIONS"] = ["lev", "lat", "lon"]
+    case("xarray_packed_places", "packed_places.zarr", ramp, [[.75, 0, 0], [0, .5, 0], [0, 0, .25]], (20, 10, 0))
+    CASES[-1]["unit"] = "m"
+    # Valid ranges are packed if they are whole numbers, and unpacked if they and the scale are not.
+    for name, limits in (("packed", [10, 500]), ("unpacked", [2.0, 247.0])):
+        stored = zarr.open(f"{FOLDER}/range_{name}.zarr", mode="w", shape=ramp.shape, dtype="<i2", fill_value=None)
+        stored[...] = ramp
+        stored.attrs.update(scale_factor=.5, add_offset=-3., valid_range=limits)
+        case(f"xarray_range_{name}", f"range_{name}.zarr",
+             np.where((ramp >= 10) & (ramp <= 500), ramp * .5 - 3, np.nan))
+    for name, attributes, *words in (("text", {"missing_value": "none"}, "missing_value: found \"none\", expected a number"),
+                                     ("truth", {"_FillValue": True}, "_FillValue: found \"true\"")):
+        stored = zarr.open(f"{FOLDER}/missing_{name}.zarr", mode="w", shape=ramp.shape, dtype="<i2", fill_value=None)
+        stored[...] = ramp
+        stored.attrs.update(attributes)
+        bad(f"xarray_missing_{name}", f"missing_{name}.zarr", *words)
     # Integers with missing samples become floating-point numbers.
     whole = values[0].copy()
     add("whole", whole, ["level", "lat", "lon"], _FillValue=-999)

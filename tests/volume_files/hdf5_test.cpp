@@ -156,6 +156,23 @@ TEST_F(FilesOfHdf5, CountAsReadWithAllThatTheyLeadTo) {
     EXPECT_GT(found, 3);
 }
 
+// 4 x 5 x 6 shorts become floats: 480 bytes. Beside them a slice, or the whole of a file whose z is
+// not the slowest, lies in memory in the file's order and in that of the volume.
+TEST_F(FilesOfHdf5, TakeNoMoreMemoryThanTheLimitIfTheyAreClassicNetcdf) {
+    VolumeUse use;
+    use.residence = VolumeUse::Residence::as_fits;
+    for (const auto& [name, bytes] : {std::pair{"order_zyx0.nc", 480 + 2 * 2 * 30},
+                                      {"order_zyx1.nc", 480 + 2 * 2 * 30},
+                                      {"order_xyz0.nc", 480 + 2 * 2 * 120}}) {
+        set_memory_limit(static_cast<std::uint64_t>(bytes));
+        EXPECT_EQ(open_volume(folder_ / name, {}, use).type(), SampleType::float32);
+        set_memory_limit(static_cast<std::uint64_t>(bytes - 1));
+        expect_error([&, file = folder_ / name] { open_volume(file, {}, use); },
+                     {name, fmt::format("all {} bytes", bytes), fmt::format("of {}", bytes - 1)});
+    }
+    set_memory_limit(0);
+}
+
 TEST_F(FilesOfHdf5, LeadToNoFileThatIsNotAllowed) {
     const OnlyBelowScope below(folder_ / "parts");
     for (const char* const name : {"outer.h5:/v", "outer.h5:/group/v", "up_scale.h5:/v"}) {

@@ -51,6 +51,18 @@ TEST_F(NrrdAxes, OneChannelOfThreeIsTaken) {
     files_of_nrrd(path);
 }
 
+TEST_F(NrrdAxes, WithoutASpacingAreNotInSpaceIfOthersHaveOne) {
+    const std::string begin = "NRRD0004\ntype: uint8\ndimension: 4\nencoding: raw\n";
+    const Volume volume = open_nrrd(
+        write("a.nrrd", begin + "sizes: 3 2 2 1\nspacings: nan .5 1 2\n\n" + counting(12)));
+    EXPECT_EQ(samples_of<std::uint8_t>(volume), (Samples{0, 3, 6, 9}));
+    EXPECT_EQ(volume.grid().step[0].x, .5);
+    ASSERT_EQ(warnings_.size(), 1u);
+    expect_says(warnings_[0], {"a.nrrd: channel 0 of 3 is taken"});
+    expect_error([&] { open_nrrd(write("b.nrrd", begin + "sizes: 3 2 2 2\n\n" + counting(24))); },
+                 {"found 4 axes (sizes 3 2 2 2)", "by kinds, directions and spacings"});
+}
+
 TEST_F(NrrdAxes, ChannelAndTimeAreTakenTogetherAndInPackedData) {
     for (const bool packed : {false, true}) {
         const auto path =
@@ -189,6 +201,8 @@ TEST_F(NrrdAxes, NamedSpacesOfPatientsBecomeLps) {
             .grid();
     EXPECT_EQ(other.axes, WorldAxes::unnamed);
     EXPECT_EQ(other.origin, glm::dvec3(5, 6, 7));
+    ASSERT_EQ(warnings_.size(), 1u);
+    expect_says(warnings_[0], {"a.nrrd: space: 3D-left-handed", "shows a mirror image"});
 }
 
 TEST_F(NrrdAxes, FilesOfAFolderAreSortedByTheirNumbers) {

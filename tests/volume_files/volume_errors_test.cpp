@@ -73,6 +73,12 @@ TEST_F(VolumeErrors, NameMistakesInNifti) {
     expect("a.nii", corpus_file("nifti/huge.nii"), {"promises 32767 x 32767 x 32767"});
     expect("a.nii", with_number(one, 40, std::int16_t{2}), {"dim[0]: found 2"});
     expect("a.nii", with_number(one, 44, std::int16_t{-5}), {"dim[2]: found -5"});
+    std::string seven = with_number(one, 40, std::int16_t{7});
+    for (const std::size_t i : {4, 5, 6}) seven = with_number(seven, 40 + 2 * i, std::int16_t{1});
+    expect("a.nii", with_number(seven, 54, std::int16_t{2}),
+           {"dim[7]: found 2, expected 1: axes beyond x, y, z, time and vector are not read"});
+    EXPECT_EQ(read_volume(write("a.nii", with_number(seven, 54, std::int16_t{1}))).grid().size,
+              (std::array<std::int64_t, 3>{4, 3, 2}));
     expect("a.nii", with_number(one, 70, std::int16_t{32}), {"datatype: found 32"});
     expect("a.nii", with_number(one, 108, 12.F), {"vox_offset: found 12, expected at least 348"});
     expect("a.nii", corpus_file("nifti/far_offset.nii"), {"vox_offset"});
@@ -85,6 +91,8 @@ TEST_F(VolumeErrors, NameMistakesInNifti) {
     std::string pair = corpus_file("nifti/pair.hdr");
     pair.resize(348);
     expect("a.hdr", pair, {"a.img: data file of", "no such file"});
+    expect_error([&] { read_volume(write("alone.img", pair), {}); },
+                 {"alone.hdr: header of", "alone.img: no such file"});
     VolumeRequest request;
     request.time = 2;
     expect("a.nii", corpus_file("nifti/times.nii"),
@@ -92,6 +100,31 @@ TEST_F(VolumeErrors, NameMistakesInNifti) {
     request = {};
     request.level = 1;
     expect("a.nii", one, {"level: expected no such key: NIfTI files hold only one"}, request);
+}
+
+TEST_F(VolumeErrors, NameFormatsThatAreNotRead) {
+    const std::string zeros(600, '\0');
+    const auto marked = [&](std::size_t at, const std::string& mark) {
+        return zeros.substr(0, at) + mark + zeros;
+    };
+    expect("a.any", marked(208, "MAP "),
+           {"found an MRC or CCP4 map, which is not read: the Python"});
+    expect("a.am", marked(0, "# AmiraMesh BINARY"), {"found an Amira or Avizo file", "NRRD"});
+    expect("a.x", marked(0, "ZISRAWFILE"), {"found a Zeiss CZI file", "Bio-Formats"});
+    expect("a.LIF", zeros, {"found a Leica file"});
+    expect("a", marked(0, "SIMPLE  ="), {"found a FITS file"});
+    expect("a.mgz", marked(0, "\x1f\x8b"), {"found a FreeSurfer volume", "mri_convert"});
+    expect("a.nrrd.gz", marked(0, "\x1f\x8b"), {"found a gzip file", "unpack it first"});
+    expect("a.zip", marked(0, "PK\3\4"), {"found a ZIP archive"});
+    expect("a.jp2", marked(0, std::string("\0\0\0\x0cjP  ", 8)), {"found a JPEG 2000 picture"});
+    expect("a.hdr", marked(0, "ENVI\n"), {"found an ENVI header", "--raw"});
+    expect("a.hdr", marked(0, "!INTERFILE :="), {"found an Interfile header"});
+    expect("a.tif", marked(0, "GIF89a"), {"found a GIF picture"});
+    expect("a.nrrd", marked(0, "version https://git-lfs.github.com/spec/v1"), {"Git LFS pointer"});
+    expect("a.nii", marked(0, "<!DOCTYPE html>"), {"found a web page"});
+    expect("a.nrrd", "", {"a.nrrd: the file is empty"});
+    expect("a.any", "", {"a.any: the file is empty"});
+    expect("a.any", zeros, {"unknown kind of volume"});
 }
 
 TEST_F(VolumeErrors, NameMistakesInNumpy) {

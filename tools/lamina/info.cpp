@@ -17,6 +17,7 @@
 #include "shared_options.h"
 #include "verbs.h"
 #include "volume_files/folder_contents.h"
+#include "volume_files/foreign_files.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
@@ -95,6 +96,7 @@ void run(const InfoOptions& options) {
     const bool volume = request.raw || is_volume_file(options.file);
     if (!volume && !is_mesh_file(options.file)) {
         expect_no_folder(options.file);
+        expect_no_foreign_file(options.file);
         fail(
             "{}: unknown kind of file: expected a volume ({}) or a mesh (.vtu, .pvtu, .pvd, .vtk, "
             ".node, .ele)",

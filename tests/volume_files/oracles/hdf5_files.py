@@ -153,6 +153,14 @@ def labels(h5py, cases, write, add, bad):
             group[name] = np.arange(count) * step
             group[name].attrs["units"] = unit
     add("nexus.h5", array, diagonal(.5, .25, 2), unit="mm")
+    with h5py.File(cases.path("a.emd"), "w") as file:
+        group = file.create_group("data/raw")
+        group.attrs["emd_group_type"] = 1
+        group["data"] = array.transpose(2, 1, 0)
+        for i, (word, count, step) in enumerate((("x", 6, .9), ("y", 5, .7), ("z", 4, 2.5))):
+            group[f"dim{i + 1}"] = np.arange(count) * step
+            group[f"dim{i + 1}"].attrs.update({"name": word, "units": "[n_m]"})
+    add("a.emd", array, diagonal(.9, .7, 2.5), unit="[n_m]")
     with h5py.File(cases.path("nearly.h5"), "w") as file:
         file["v"] = array
         file["z"] = [0., 1.03, 1.98, 3]
@@ -210,6 +218,46 @@ def packed(h5py, cases, write, add, bad):
     several = array.astype("f4")
     several[several % 5 == 0] = np.nan
     write("several.nc", array, {"missing_value": np.unique(array[array % 5 == 0]).astype("i2")[:50]})
+    # Limits are packed, unless they have the type of the scale.
+    scaled = {"scale_factor": np.float32(.01), "add_offset": np.float32(-2)}
+    for name, attributes, low, high in (
+            ("packed", {"valid_range": np.array([10, 500], "i2")}, 10, 500),
+            ("unpacked", {"valid_range": np.array([-1.9, 3], "f4")}, 10, 500),
+            ("wider", {"valid_range": np.array([10, 500], "f8")}, 10, 500),
+            ("least", {"valid_min": np.float32(-1.9)}, 10, 2000),
+            ("falling", {"valid_min": np.float32(-7), "scale_factor": np.float32(-.01)}, -40000, 500)):
+        write(f"range_{name}.nc", array, {**scaled, **attributes})
+        factor, shift = (float(np.float32({**scaled, **attributes}[key])) for key in ("scale_factor", "add_offset"))
+        add(f"range_{name}.nc", np.where((array < low) | (array > high), np.nan, array * factor + shift), drawn="float",
+            warnings=["samples are NaN: the file calls them missing (valid_"])
+    for number, text in enumerate(("-32768", "-3.2768e4")):
+        want = array.astype("f4")
+        want[0, 0, 1] = np.nan
+        write(f"fill_text{number}.nc", array, {("_FillValue", "missing_value")[number]: text})
+        add(f"fill_text{number}.nc", want, drawn="float", warnings=["1 samples are NaN"])
+    # NetCDF's own fill values: only where NetCDF has written the file, filled it, and no _FillValue is told.
+    for name, attributes, fill_time, kinds in (
+            ("own", {"missing_value": 5}, h5py.h5d.FILL_TIME_IFSET, "i2 u2 i4 u4 i8 u8 f4 f8"), ("told", {"_FillValue": 5}, h5py.h5d.FILL_TIME_IFSET, "i4"),
+            ("never", {"missing_value": 5}, h5py.h5d.FILL_TIME_NEVER, "i4"),
+            ("bytes", {"missing_value": 5}, h5py.h5d.FILL_TIME_IFSET, "i1 u1")):
+        for kind in kinds.split():
+            fill = {"i2": -32767, "u2": 65535, "i4": -2147483647, "u4": 4294967295, "i8": -9223372036854775806,
+                    "u8": 18446744073709551614, "i1": -127, "u1": 255}.get(kind, 9.969209968386869e36)
+            stored = ramp(kind) if kind not in ("i1", "u1") else ramp(kind) % 100
+            stored[0, 0, 2] = 5
+            stored[1, 2, 3] = fill
+            with h5py.File(cases.path(f"{name}_{kind}.nc"), "w") as file:
+                file.attrs["_NCProperties"] = "version=2,netcdf=4.9.0"
+                properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+                properties.set_fill_time(fill_time)
+                h5py.h5d.create(file.id, b"v", h5py.h5t.py_create(stored.dtype), h5py.h5s.create_simple(SHAPE), properties)
+                file["v"][...] = stored
+                file["v"].attrs.update({key: np.dtype(kind).type(value) for key, value in attributes.items()})
+            want = stored.astype("f8")
+            want[stored == 5] = np.nan
+            if name == "own":
+                want[1, 2, 3] = np.nan
+            add(f"{name}_{kind}.nc", want.astype("f4"), drawn="float")
     data = ramp("i1")
     write("unsigned.nc", data, {"_Unsigned": "true", "missing_value": np.int8(-1)})
     want = data.view("u1").astype("f4")
@@ -229,8 +277,8 @@ def packed(h5py, cases, write, add, bad):
                 file[word].attrs.update({"scale_factor": .1 * (axis + 1), "add_offset": 10., "units": "m", **attributes})
                 file[word].make_scale(word)
                 file["v"].dims[axis].attach_scale(file[word])
-    add("scaled_places.nc", ramp(), diagonal(.3, .2, .1), (9.7, 9.8, 9.9), "m")
-    add("hole_places.nc", ramp(), warnings=["the coordinates of z are not equally spaced"])
+    add("scaled_places.nc", ramp("<f4"), diagonal(.3, .2, .1), (9.7, 9.8, 9.9), "m")
+    add("hole_places.nc", ramp("<f4"), warnings=["the coordinates of z are not equally spaced"])
     for word in ("True", "TRUE", "FALSE", "False"):
         write(f"word_{word}.nc", ramp("i1"), {"_Unsigned": word})
         add(f"word_{word}.nc", ramp("u1" if word.lower() == "true" else "i1"))
@@ -248,6 +296,8 @@ def packed(h5py, cases, write, add, bad):
 def others(h5py, cases, write, add, bad):
     """Truth values, float16, bits, colour images, soft links."""
     truth = ramp() % 3 == 0
+    write("matlab.mat", ramp(), {"MATLAB_class": np.bytes_("int16")})
+    add("matlab.mat", ramp(), warnings=["MATLAB has written it: its first axis (rows) is taken for x"])
     write("bool.h5", truth)
     add("bool.h5", truth.astype("u1"))
     write("half.h5", ramp("<f2"))
@@ -470,7 +520,8 @@ def linked(h5py, cases, write, add, bad):
 
 def refused(h5py, cases, write, add, bad):
     write("complex.h5", np.zeros(SHAPE, "c8"))
-    bad("complex.h5", "complex numbers of r, i", array="/v")
+    for request in ({}, {"array": "/v"}):
+        bad("complex.h5", "complex numbers of r, i", **request)
     write("words.h5", np.full(SHAPE, b"word"))
     bad("words.h5", "found text of 4 bytes", array="/v")
     with h5py.File(cases.path("minc.mnc.h5"), "w") as file:
@@ -511,7 +562,7 @@ def classic(cases, add, bad):
             want = data[i] * .5 + 10
             want[data[i] == 7] = np.nan
             add(name, want, steps, origin, "degrees_east", contents, drawn="float", array="v", time=i)
-            add(name + ":/movie", (array[:1] + i * 1000).astype("i4"), diagonal(.5, -1, 1), (0, 50, 0), "degrees_east", time=i)
+            add(name + ":/movie", (array[:1] + i * 1000).astype("f4"), diagonal(.5, -1, 1), (0, 50, 0), "degrees_east", time=i)
         add(name, array.astype("f4"), steps, origin, "degrees_east", array="/turned", warnings=["units degrees_east, degrees_north, m"])
         bad(name, "found the arrays turned, v, movie", f"{name}:/turned")
         bad(name, "named \"none\"", array="none")
@@ -527,7 +578,41 @@ def classic(cases, add, bad):
             variable[:] = np.arange(size)
             variable.scale_factor, variable.add_offset, variable.units = .25, 10., "m"
         file.createVariable("v", "h", ("z", "y", "x"))[:] = array
-    add("places.nc", array, diagonal(.25, .25, .25), (10, 10, 10), "m")
+    add("places.nc", array.astype("f4"), diagonal(.25, .25, .25), (10, 10, 10), "m")
+    # Each order of dimensions, as records or not, of which the first may be taken; fill values.
+    for word in ("tzyx", "zyx", "xyz", "yzx", "ztyx", "zyxt", "xtyz"):
+        for records in (False, True):
+            name = f"order_{word}{int(records)}.nc"
+            turned = np.stack([array, array + 1000]) if "t" in word else array[None].copy()
+            turned[-1, 1, 2, 3] = -32767
+            with netcdf_file(cases.path(name), "w") as file:
+                for axis, letter in enumerate(word):
+                    file.createDimension(letter, None if records and axis == 0 else dict(zip("tzyx", turned.shape))[letter])
+                v = file.createVariable("v", "h", tuple(word))
+                file.createVariable("odd", "b", (word[0],))[:] = np.zeros(dict(zip("tzyx", turned.shape))[word[0]], "b")
+                v[:] = turned.transpose(["tzyx".index(letter) for letter in ("t" * ("t" not in word) + word)]).reshape(
+                    [dict(zip("tzyx", turned.shape))[letter] for letter in word])
+            want = turned[-1].astype("f4")
+            want[1, 2, 3] = np.nan
+            add(name, want, warnings=["1 samples are NaN: the file calls them missing (NetCDF's fill value -32767)"],
+                **({"time": 1} if "t" in word else {}))
+    for number, (text, kind) in enumerate((("7", "f"), ("7.", "f"), ("seven", ""), ("7, 8", ""))):
+        with netcdf_file(cases.path(f"text{number}.nc"), "w") as file:
+            for word, size in zip("zyx", SHAPE):
+                file.createDimension(word, size)
+            v = file.createVariable("v", "h", ("z", "y", "x"))
+            v[:] = array
+            v.missing_value = text
+        if kind:
+            add(f"text{number}.nc", np.where(array == 7, np.nan, array).astype("f4"), warnings=["missing_value 7"])
+        else:
+            bad(f"text{number}.nc", f"missing_value: found \"{text}\", expected a number")
+    with netcdf_file(cases.path("minc1.mnc"), "w") as file:
+        for word, size in zip("zyx", SHAPE):
+            file.createDimension(f"{word}space", size)
+        file.createVariable("image", "h", ("zspace", "yspace", "xspace"))[:] = array
+        file.createVariable("image-max", "d", ("zspace",))[:] = np.arange(4)
+    bad("minc1.mnc", "found MINC", "mnc2nii")
     with netcdf_file(cases.path("single.nc"), "w") as file:  # a single record variable is not padded
         for word, size in (("z", None), ("y", 3), ("x", 3)):
             file.createDimension(word, size)
@@ -547,7 +632,7 @@ def classic(cases, add, bad):
     big = (ramp("i8", (4, 5, 6, 3)) - 500).astype(">i8")
     with open(cases.path("big.nc"), "wb") as file:
         file.write(header(len(header(0))) + big.tobytes())
-    add("big.nc", big[..., 2].astype("i8"), channel=2, contents={"channels": ["", "", ""]})
+    add("big.nc", big[..., 2].astype("f4"), channel=2, contents={"channels": ["", "", ""]})
     with open(cases.path("none.nc"), "wb") as file:
         file.write(b"no file of NetCDF")
     bad("none.nc", "neither classic NetCDF nor HDF5")

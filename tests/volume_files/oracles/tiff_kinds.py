@@ -114,9 +114,9 @@ def ome_sets(cases, tifffile):
     for name in names:
         cases.add(name, both[0], warnings=["channel 0 of 2 is taken"])
         cases.add(name, both[1], channel=1)
-    lost = ["lost_c0.ome.tif", "lost_c1.ome.tif"]
-    write(cases, tifffile, lost[0], both[0], pixels(parts(lost), sizes))
-    cases.add(lost[0], both[0])
+    lost = ["lost_c0.ome.tif", "lost_c1.ome.tif", "lost_c2.ome.tif"]
+    write(cases, tifffile, lost[0], both[0], pixels(parts(lost), (12, 10, 8, 3, 1)))
+    cases.add(lost[0], both[0], warnings=["lost_c1.ome.tif: no such file: 2 of the 3 files that"])
     cases.refuse(lost[0], "lost_c1.ome.tif: file of the OME data set", "no such file", channel=1)
     write(cases, tifffile, "renamed.ome.tif", both[0], pixels(parts(["old.ome.tif"]), (12, 10, 8, 1, 1)), ' UUID="urn:uuid:0"')
     cases.add("renamed.ome.tif", both[0])
@@ -244,6 +244,7 @@ def others(cases, tifffile):
     plain("turned.tif", ["its Orientation 3"], extratags=[(274, "H", 1, 3, True)])
     plain("words.tif", ["its description is in no form that lamina reads"], description="Voxel size 2 um")
     plain("lsm.tif", ["what Zeiss (LSM) says"], extratags=[(34412, "B", 8, bytes(8), True)])
+    plain("manager.tif", ["what Micro-Manager says"], extratags=[(51123, "s", 0, '{"Slices": 4, "Channels": 2}', True)])
     plain("nodata.tif", ["it says that -9999 is no data (GDAL_NODATA)"], extratags=[(42113, "s", 0, "-9999", True)])
     plain("geo.tif", ["GeoTIFF (ModelPixelScale)"], extratags=[(33550, "d", 3, (2., 2., 0.), True)])
     tifffile.imwrite(cases.path("stk.tif"), volume[0], metadata=None, extratags=[(33629, "I", 8, tuple(range(8)), True)])

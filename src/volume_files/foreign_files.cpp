@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "volume_files/foreign_files.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/input_file.h"
+
+namespace lamina {
+namespace {
+
+using namespace std::string_view_literals;
+
+// A format that is not read. It is known by its first bytes or, if it has no mark of its own, by
+// the file's name.
+struct ForeignFormat {
+    const char* name;
+    std::size_t at;          // byte of `mark`
+    std::string_view mark;   // empty: none
+    const char* extensions;  // in lower case, between blanks
+    const char* advice;
+};
+
+constexpr const char *bio_formats = "Fiji (Bio-Formats) saves it as OME-TIFF",
+                     *slicer = "3D Slicer or ITK-SNAP saves it as NRRD",
+                     *mrcfile = "the Python package mrcfile reads it, numpy.save writes .npy",
+                     *scanco = "Fiji (its plugin for SCANCO) saves it as TIFF",
+                     *numpy = "numpy.save writes arrays as .npy", *surface = "it has no volume",
+                     *pictures = "save its pictures as PNG or TIFF, such as by ImageMagick",
+                     *unpack = "unpack it first", *download = "download the data that it leads to",
+                     *dataset = "xarray or cdo write NetCDF of it",
+                     *as_raw = "it describes raw data, which --raw reads";
+
+constexpr ForeignFormat formats_not_read[] = {
+    {"an MRC or CCP4 map", 208, "MAP ", " .mrc .ccp4 ", mrcfile},
+    {"an Amira or Avizo file", 0, "# AmiraMesh", "", "Amira and Avizo save it as NRRD"},
+    {"an Amira or Avizo file", 0, "# Avizo", "", "Amira and Avizo save it as NRRD"},
+    {"a Gatan Digital Micrograph file", 0, "", " .dm3 .dm4 ", bio_formats},
+    {"a Zeiss CZI file", 0, "ZISRAWFILE", "", bio_formats},
+    {"a Leica file", 0, "", " .lif .lof .xlef ", bio_formats},
+    {"a Nikon ND2 file", 0, "\xda\xce\xbe\x0a", "", bio_formats},
+    {"an Olympus file", 0, "OLYMPUSRAWFORMAT", " .oir .oif .vsi ", bio_formats},
+    {"an OLE container, as Olympus OIB, Zeiss ZVI and TXRM files are", 0,
+     "\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "", bio_formats},
+    {"a Bio-Rad or KLB file", 0, "", " .pic .klb ", bio_formats},
+    {"a FITS file", 0, "SIMPLE  =", "", "astropy reads it, numpy.save writes .npy"},
+    {"an OpenVDB file", 0, " BDV", "", "pyopenvdb copies it to an array, numpy.save writes .npy"},
+    {"a MATLAB file before version 7.3", 0, "MATLAB 5.0", "", "save(..., '-v7.3') writes HDF5"},
+    {"an HDF4 file", 0, "\x0e\x03\x13\x01", "", "h4toh5 makes HDF5 of it"},
+    {"a GRIB file", 0, "GRIB", " .grb .grib .grib2 ", dataset},
+    {"a FreeSurfer volume", 0, "", " .mgh .mgz ", "mri_convert makes NIfTI of it"},
+    {"an AFNI data set", 0, "", " .head .brik ", "3dAFNItoNIFTI makes NIfTI of it"},
+    {"an Interfile header", 0, "!INTERFILE", " .hv ", slicer},
+    {"a Philips PAR/REC header", 0, "# === DATA DESCRIPTION FILE", "",
+     "dcm2niix makes NIfTI of it"},
+    {"an Inrimage file", 0, "#INRIMAGE-4#{", "", slicer},
+    {"a SCANCO ISQ file", 0, "CTDATA-HEADER_V1", "", scanco},
+    {"a SCANCO AIM file", 0, "AIMDATA_V", " .aim ", scanco},
+    {"a GIPL file", 0, "", " .gipl ", slicer},
+    {"an ECAT file", 0, "MATRIX7", "", "nibabel makes NIfTI of it"},
+    {"an OpenDX file", 0, "", " .dx ", "ParaView or VTK save it as .vti"},
+    {"a Gaussian cube file", 0, "", " .cube .cub ", "ParaView saves it as .vti"},
+    {"a SEG-Y file", 0, "", " .sgy .segy ", "segyio reads it, numpy.save writes .npy"},
+    {"a description of raw data", 0, "ObjectFileName:", " .vgi ", as_raw},
+    {"an ERDAS Imagine file", 0, "EHFA_HEADER_TAG", "", "gdal_translate makes TIFF of it"},
+    {"an ENVI header", 0, "ENVI", "", as_raw},
+    {"a BOV header", 0, "", " .bov ", as_raw},
+    {"a PVM volume", 0, "PVM", "", as_raw},
+    {"a MagicaVoxel file", 0, "VOX ", " .vox ", numpy},
+    {"a surface", 0, "", " .ply .stl .obj .off .gii ", surface},
+    {"a table of text", 0, "", " .csv .xyz ", numpy},
+    {"a Python pickle or PyTorch file", 0, "", " .pkl .pickle .pt .pth ", numpy},
+    {"an OpenEXR picture", 0, "\x76\x2f\x31\x01", "", pictures},
+    {"a JPEG 2000 picture", 0, "\0\0\0\x0cjP  "sv, "", pictures},
+    {"a WebP picture", 8, "WEBP", "", pictures},
+    {"a GIF picture", 0, "GIF8", "", pictures},
+    {"a picture", 0, "", " .bmp .pgm .ppm .pnm ", pictures},
+    {"a Git LFS pointer", 0, "version https://git-lfs", "", "git lfs pull fetches the data"},
+    {"a web page", 0, "<!DOCTYPE html", "", download},
+    {"a web page", 0, "<!doctype html", "", download},
+    {"a web page", 0, "<html", "", download},
+    {"a ZIP archive", 0, "PK\3\4", "", unpack},
+    {"a gzip file", 0, "\x1f\x8b", "", unpack},
+    {"a bzip2 file", 0, "BZh", "", unpack},
+    {"an xz file", 0, "\xfd\x37zXZ", "", unpack},
+    {"a zstd file", 0, "\x28\xb5\x2f\xfd", "", unpack},
+    {"a 7z archive", 0, "7z\xbc\xaf\x27\x1c", "", unpack},
+    {"a tar archive", 257, "ustar", "", unpack}};
+
+}  // namespace
+
+void expect_no_foreign_file(const std::filesystem::path& path, bool is_named) {
+    std::error_code unreadable;
+    if (!std::filesystem::is_regular_file(path, unreadable)) return;
+    if (std::filesystem::file_size(path, unreadable) == 0 && !unreadable)
+        fail("{}: the file is empty", path.string());
+    const std::string beginning = file_beginning(path, 512);
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char letter) {
+        return static_cast<char>(std::tolower(letter));
+    });
+    for (const ForeignFormat& format : formats_not_read) {
+        const bool is_marked =
+            !format.mark.empty() && beginning.size() > format.at &&
+            std::string_view(beginning).substr(format.at).starts_with(format.mark);
+        const bool has_name =
+            !extension.empty() && std::string_view(format.extensions).find(" " + extension + " ") !=
+                                      std::string_view::npos;
+        if ((is_marked || has_name) && !(is_named && format.advice == unpack))
+            fail("{}: found {}, which is not read: {}", path.string(), format.name, format.advice);
+    }
+}
+
+}  // namespace lamina
