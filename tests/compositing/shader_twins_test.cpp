@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // shaders/compositing computes the same numbers as src/compositing, bit for bit, except for the
 // codes of optical depth, which it computes in float32.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "compositing/codes.h"
 #include "gl/framebuffer.h"
@@ -17,32 +20,69 @@ using ShaderTwins = gl::GlTest;
 // Size of the target. Pixels have indices, row by row from the bottom.
 constexpr int edge = 256, pixels = edge * edge;
 
-gl::Program program_of(const std::string& include, const std::string& body,
+// A body of code as a fragment and as a compute shader. It sets `result` from `index`, the pixel's.
+struct TwinProgram {
+    gl::Program fragment, compute;
+
+    template <typename Value>
+    void set(std::string_view name, const Value& value) {
+        fragment.set(name, value);
+        compute.set(name, value);
+    }
+};
+
+TwinProgram program_of(const std::string& include, const std::string& body,
                        const gl::Defines& defines) {
-    return gl::full_screen_program("#version 450 core\n" + include +
-                                       "uniform int parameter;\n"
-                                       "uniform float share;\n"
-                                       "out vec4 result;\n"
-                                       "void main() {\n"
-                                       "    uint column = uint(gl_FragCoord.x);\n"
-                                       "    uint row = uint(gl_FragCoord.y);\n"
-                                       "    uint index = column + 256u * row;\n" +
-                                       body + "}\n",
-                                   defines);
+    const std::string head = "#version 450 core\n" + include +
+                             "uniform int parameter;\n"
+                             "uniform float share;\n";
+    return {
+        gl::full_screen_program(head +
+                                    "out vec4 result;\n"
+                                    "void main() {\n"
+                                    "    uint column = uint(gl_FragCoord.x);\n"
+                                    "    uint row = uint(gl_FragCoord.y);\n"
+                                    "    uint index = column + 256u * row;\n" +
+                                    body + "}\n",
+                                defines),
+        gl::compute_program(head +
+                                "layout(local_size_x = 64) in;\n"
+                                "layout(std430, binding = 0) buffer Results { vec4 results[]; };\n"
+                                "void main() {\n"
+                                "    vec4 result;\n"
+                                "    uint index = gl_GlobalInvocationID.x;\n"
+                                "    uint column = index & 255u;\n"
+                                "    uint row = index >> 8;\n" +
+                                body +
+                                "    results[index] = result;\n"
+                                "}\n",
+                            defines)};
 }
 
 std::string include_of(const std::string& name) {
     return "#include \"compositing/" + name + ".glsl\"\n";
 }
 
-// A program's results, by the index of the pixel.
+// A program's results, by the index of the pixel: the same numbers from both shaders.
 class Results {
   public:
-    explicit Results(gl::Program& program) {
+    explicit Results(TwinProgram& program) {
         gl::Framebuffer target(gl::Texture::make_2d(gl::TextureFormat::rgba32f, edge, edge));
         target.bind();
-        gl::draw_full_screen(program);
+        gl::draw_full_screen(program.fragment);
         image_ = target.read_back();
+        const gl::Buffer buffer(sizeof(float) * image_.rgba.size());
+        buffer.bind_storage(0);
+        program.compute.dispatch(pixels / 64);
+        std::vector<float> computed(image_.rgba.size());
+        buffer.read(std::span(computed));
+        for (std::uint32_t index = 0; index < pixels; ++index) {
+            const float* const pixel = computed.data() + 4 * std::size_t{index};
+            if (!std::equal(pixel, pixel + 4, (*this)[index])) {
+                ADD_FAILURE() << "the compute shader differs at " << index;
+                return;
+            }
+        }
     }
     const float* operator[](std::uint32_t index) const {
         return image_.pixel(static_cast<int>(index % edge),
@@ -71,7 +111,7 @@ gl::Defines over_defines(int bits, OverRounding rounding) {
 
 TEST_F(ShaderTwins, AgreeOnOverOf4BitsForAllOperands) {
     for (const OverRounding rounding : {OverRounding::separate, OverRounding::fused}) {
-        gl::Program program = program_of(
+        TwinProgram program = program_of(
             include_of("over"),
             "    uint color = index >> 12, alpha = index >> 8 & 15u, below = index >> 4 & 15u;\n"
             "    uint above_alpha = index & 15u;\n"
@@ -93,7 +133,7 @@ TEST_F(ShaderTwins, AgreeOnOverOf4BitsForAllOperands) {
 
 TEST_F(ShaderTwins, AgreeOnOverOf8BitsForAllPairs) {
     for (const OverRounding rounding : {OverRounding::separate, OverRounding::fused}) {
-        gl::Program program = program_of(
+        TwinProgram program = program_of(
             include_of("over"),
             "    uint color = uint(parameter);\n"
             "    result = vec4(over(color, column, row), over(255u, column, row),\n"
@@ -115,7 +155,7 @@ TEST_F(ShaderTwins, AgreeOnOverOf8BitsForAllPairs) {
 }
 
 TEST_F(ShaderTwins, AgreeOnRandomBits) {
-    gl::Program program = program_of(
+    TwinProgram program = program_of(
         include_of("random_bits"),
         "    uint first = random_bits(column, row, uint(parameter), 1u);\n"
         "    uint second = random_bits(first, index, column ^ row, ~uint(parameter));\n"
@@ -146,7 +186,7 @@ TEST_P(ShaderTwinsOfBits, AgreeOnOverOfRandomOperands) {
         return choice == 0 ? 0 : choice == 1 ? largest : bits & largest;
     };
     for (const OverRounding rounding : {OverRounding::separate, OverRounding::fused}) {
-        gl::Program program = program_of(
+        TwinProgram program = program_of(
             include_of("over") + include_of("random_bits") +
                 "uint operand(uint index, uint which) {\n"
                 "    uint bits = random_bits(index, which, 0u, 77u), choice = bits >> 29;\n"
@@ -221,7 +261,7 @@ TEST_P(ShaderTwinsOfBits, AgreeOnRoundingAndDithering) {
         defines.set("ALPHA_ROUNDING", static_cast<int>(rounding));
         defines.set("DITHER_PERIOD", period);
         defines.set("DITHER_INCREMENT", increment);
-        gl::Program program = program_of(
+        TwinProgram program = program_of(
             include_of("dither") + include_of("random_bits") + scaled_value + chosen_number,
             "    double scaled = scaled_value(index);\n"
             "    uint random = chosen_number(index, scaled, 4294967296.0LF);\n"
@@ -245,7 +285,7 @@ TEST_P(ShaderTwinsOfBits, AgreeOnRoundingAndDithering) {
 
 INSTANTIATE_TEST_SUITE_P(All, ShaderTwinsOfBits, testing::Values(1, 2, 4, 6, 8, 10, 12, 16));
 
-gl::Program depth_program(NodeCode code, const std::string& body) {
+TwinProgram depth_program(NodeCode code, const std::string& body) {
     constexpr std::array names = {"CODE_MINIMAX", "CODE_PHI", "CODE_ALPHA"};
     gl::Defines defines;
     defines.set("NODE_CODE", names[static_cast<std::size_t>(code)]);
@@ -258,7 +298,7 @@ gl::Program depth_program(NodeCode code, const std::string& body) {
 constexpr double log_error = 3 * 0x1p-21;
 
 TEST_F(ShaderTwins, AgreeOnDepthFromOpacity) {
-    gl::Program program = depth_program(
+    TwinProgram program = depth_program(
         NodeCode::phi,
         "    float value = index < 32768u ? exp2(float(index) * (26.0 / 32768.0) - 27.0)\n"
         "                                 : float(index - 32768u) / 32768.0;\n"
@@ -281,7 +321,7 @@ class DepthTwins : public gl::ContextTest<testing::TestWithParam<std::tuple<Node
 
 TEST_P(DepthTwins, AgreeOnEncodedDepths) {
     const auto [code, share] = GetParam();
-    gl::Program program = depth_program(
+    TwinProgram program = depth_program(
         code,
         "    float depth = exp2(float(index) * (40.0 / 65536.0) - 26.6);\n"
         "    result = vec4(depth, encode_depth(depth, share), encode_depth(0.0, share),\n"
@@ -305,7 +345,7 @@ TEST_P(DepthTwins, AgreeOnEncodedDepths) {
 
 TEST_P(DepthTwins, AgreeOnDecodedDepths) {
     const auto [code, share] = GetParam();
-    gl::Program program = depth_program(code,
+    TwinProgram program = depth_program(code,
                                         "    float value = float(index) / 65535.0;\n"
                                         "    result = vec4(value, decode_depth(value, share),\n"
                                         "                  decode_depth(1e-7 * value, share), "

@@ -215,7 +215,6 @@ Json draw_times(const std::filesystem::path& folder, LamarStage& stage) {
     bool same_picture = false;
     values["palettes"] = time_palettes(same_picture);
     study::write_text(folder / "times.csv", csv_of_rows(values["techniques"]));
-    study::write_text(folder / csv_of_rows(values["barriers"]));
     study::write_text(folder / "times_palettes.csv", csv_of_rows(values["palettes"]));
     Findings findings;
     findings.add(
