@@ -35,13 +35,13 @@ GlCodeSlabs::GlCodeSlabs(const GlSlabSource& source, const SlicePlan& plan,
     : source_(source),
       plan_(plan),
       height_(height),
-      band_rows_(0),
       defines_(wanted_defines()),
       program_("slicing/codes.comp", defines_),
       march_(source, plan),
-      picture_(packing_of(plan), width, height) {
-    const std::int64_t row_bytes = 4 * std::int64_t{picture_.row_words()};
-    band_rows_ = rows_of_band(height, plan.batches, capabilities.max_storage_bytes / row_bytes);
+      picture_(packing_of(plan), width, height),
+      pace_(rows_of_band(height, plan.batches,
+                         capabilities.max_storage_bytes / (4 * std::int64_t{picture_.row_words()})),
+            plan.batches == 1) {
     if (plan_.dither) ranks_ = upload_ranks(*plan_.dither);
 }
 
@@ -69,17 +69,15 @@ void GlCodeSlabs::draw(Progress* progress) {
     }
     program_.set("output_row", picture_.row_words());
     const std::vector<GlMarch::Part>& parts = march_.parts_of({0, plan_.slabs});
-    for (int row = 0; row < height_; row += band_rows_) {
-        const RowBand band{row, std::min(band_rows_, height_ - row)};
+    draw_bands(height_, pace_, [&](const RowBand& band) {
         picture_.bind(picture_binding, band.first_row, band.rows);
         program_.set("output_begin", -band.first_row * picture_.row_words());
         for (const GlMarch::Part& part : parts) march_.draw(part, band, program_);
         if (progress != nullptr) {
             gl::api().Finish();
-            progress->advance();
+            progress->advance(band.rows);
         }
-        check_interrupt();
-    }
+    });
 }
 
 void GlCodeSlabs::read(Image& image) const {

@@ -21,7 +21,7 @@ class GlCodeSlabs {
     GlCodeSlabs(const GlSlabSource& source, const SlicePlan& plan, const Capabilities& capabilities,
                 int width, int height);
 
-    int step_count() const { return (height_ + band_rows_ - 1) / band_rows_; }  // of draw()
+    int step_count() const { return height_; }  // steps that draw() reports: rows
     // Must be called after source and plan have changed in what belongs to one view alone.
     void take_plan();
     void set_view(const View& view, const Slabs& slabs);
@@ -35,12 +35,13 @@ class GlCodeSlabs {
 
     const GlSlabSource& source_;
     const SlicePlan& plan_;
-    int height_, band_rows_;
+    int height_;
     gl::Defines defines_;
     gl::Program program_;
     gl::Texture ranks_;  // of dithering
     GlMarch march_;
     GlPixels picture_;
+    RowPace pace_;
 };
 
 }  // namespace lamina

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "executors/gl_pixels.h"
 #include "gl/program.h"
 #include "slicing/gl_slab_source.h"
+#include "slicing/row_pace.h"
 #include "slicing/slab_geometry.h"
 
 namespace lamina {
@@ -21,6 +23,9 @@ struct RowBand {
 // bytes as a row, and which are of whole tiles of gl/pixels.glsl if they hold one. `bands`: into
 // how many bands the picture is to be divided at least.
 int rows_of_band(int height, int bands, std::int64_t most);
+
+// Draws a picture, band after band, by `draw(band)`. Ctrl-C ends it between bands.
+void draw_bands(int height, RowPace& pace, const std::function<void(const RowBand&)>& draw);
 
 // Tells compute shaders that march slabs (leaf.comp, codes.comp) which slabs of which bricks they
 // draw, in which pixels.

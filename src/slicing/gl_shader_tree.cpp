@@ -134,6 +134,7 @@ void GlShaderTree::choose_bands(const Capabilities& capabilities,
     const std::int64_t fitting = std::min(std::max<std::int64_t>(memory_budget / row_bytes, 1),
                                           capabilities.max_storage_bytes / block_bytes);
     band_rows_ = rows_of_band(height_, (plan_.batches + leaf_count_ - 1) / leaf_count_, fitting);
+    pace_.emplace(band_rows_, plan_.batches == 1);
 }
 
 void GlShaderTree::make_programs() {
@@ -165,10 +166,10 @@ void GlShaderTree::set_view(const View& view, const Slabs& slabs) {
 
 void GlShaderTree::draw(Progress* progress) {
     progress_ = progress;
-    for (int row = 0; row < height_; row += band_rows_) {
-        band_ = {row, std::min(band_rows_, height_ - row)};
+    draw_bands(height_, *pace_, [&](const RowBand& band) {
+        band_ = band;
         evaluate(0, shape_.root(), 0);
-    }
+    });
 }
 
 void GlShaderTree::read(Image& image) const {
@@ -228,7 +229,7 @@ void GlShaderTree::draw_leaf(const SampleSpan& leaf, int level, int place) {
     }
     if (progress_ != nullptr) {
         gl::api().Finish();
-        progress_->advance();
+        progress_->advance(band_.rows);
     }
     check_interrupt();
 }

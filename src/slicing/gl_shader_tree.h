@@ -32,7 +32,7 @@ class GlShaderTree {
     GlShaderTree(const GlSlabSource& source, const SlicePlan& plan,
                  const Capabilities& capabilities, int width, int height);
 
-    int step_count() const { return bands() * leaf_count_; }  // steps that draw() reports
+    int step_count() const { return height_ * leaf_count_; }  // of draw(): rows of leaves
     // Must be called after source and plan have changed in what belongs to one view alone.
     void take_plan();
     void set_view(const View& view, const Slabs& slabs);
@@ -43,7 +43,6 @@ class GlShaderTree {
 
   private:
     int count_leaves(int level, const SampleSpan& node) const;
-    int bands() const { return (height_ + band_rows_ - 1) / band_rows_; }
     // Chooses the rows of a band: few enough for memory_budget, for the largest storage block and
     // for the plan's batches. `level_nodes`: largest number of children of a node, by level.
     void choose_bands(const Capabilities& capabilities, const std::vector<int>& level_nodes);
@@ -65,6 +64,7 @@ class GlShaderTree {
     std::optional<gl::Program> leaf_, node_, root_node_;
     GlMarch march_;
     GlPixels picture_;
+    std::optional<RowPace> pace_;
     std::vector<gl::Buffer> levels_;  // by level: the children of one node, nearest first
     std::optional<gl::Buffer> kept_;  // what rays have passed between two dispatches of a leaf
     // The following belong to the frame.

@@ -19,7 +19,7 @@ class GlVolume;
 
 // The volume as a renderer has prepared it. The next renderer uses it if it has the form needed.
 struct SliceReuse {
-    std::shared_ptr<const CpuVolume> tiles;          // of the engine `cpu`
+    std::shared_ptr<const CpuVolume> tiles;    // of the engine `cpu`
     std::shared_ptr<const GlVolume> textures;  // of OpenGL
 };
 

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace lamina {
+
+// Chooses how many rows of a picture a GPU draws in one dispatch, by the time that rows took
+// before: drivers end programs that take seconds, and a desktop stands still until a dispatch is
+// done. Software is given bands of a fixed number of rows, and needs no clock.
+class RowPace {
+  public:
+    // Time in milliseconds for which rows are chosen: half of the most that a dispatch should take,
+    // because the next view may show more.
+    static constexpr double wanted_ms = 50;
+    static constexpr int tile_rows = 8;  // of shaders/gl/pixels.glsl
+
+    // `band_rows`: most rows that fit the memory. `timed`: false for bands of so many rows.
+    RowPace(int band_rows, bool timed) : band_rows_(band_rows), timed_(timed) {}
+
+    // Returns the number of rows to draw next, of `left` that remain.
+    int next(int left) const;
+    // Tells whether the rows must be waited for, and took() be called with the time they took: in
+    // the first frame, which begins with few rows.
+    bool wants_time() const { return timed_ && !known_; }
+    void took(int rows, double ms);
+    // Must be called once a frame is done.
+    void frame_took(int rows, double ms);
+    bool timed() const { return timed_; }
+
+  private:
+    int band_rows_;
+    bool timed_, known_ = false;
+    int last_rows_ = 0;      // in the first frame
+    double ms_per_row_ = 0;  // of the slowest rows so far
+};
+
+}  // namespace lamina
