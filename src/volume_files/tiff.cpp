@@ -253,6 +253,10 @@ class TiffStack {
     void list_planes() {
         type_ = page_.type(name_);
         if (is_behind_) return;
+        // Pages may say any depth, and packed pixels any number of samples.
+        constexpr std::int64_t most_slices = most_pages;
+        if (slices_ > most_slices)
+            fail("{}: found {} slices, expected up to {}", name_, slices_, most_slices);
         for (std::int64_t slice = 0; slice < slices_; ++slice) {
             std::int64_t number = 0, step = 1;
             for (const StoredAxis& axis : taken_) {
