@@ -110,11 +110,11 @@ class TiffStack {
         const auto [known, is_new] = pages_of_.try_emplace(number);
         std::vector<TiffPage>& pages = known->second;
         if (!is_new) return pages;
-        check_interrupt();
         TiffFile& file = open(number);
         file.go_to_first();
         std::uint64_t most = 0;
         do {
+            check_interrupt();
             if (++listed_ > most_pages) fail("{}: found more than {} pages", name_, most_pages);
             most = std::max(most, file.capacity());
             pages.push_back(file.page());
