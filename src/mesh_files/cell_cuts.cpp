@@ -309,8 +309,8 @@ void CellCuts::add_polyhedron(const PolyhedronFaces& faces) {
             faces.corners.begin() + static_cast<std::ptrdiff_t>(begin),
             faces.corners.begin() + static_cast<std::ptrdiff_t>(faces.ends[i]));
         std::rotate(face.begin(), std::ranges::min_element(face, {}, place), face.end());
-        const auto repeated = std::ranges::unique(face, {}, place);
-        face.erase(repeated.begin(), repeated.end());
+        const auto is_same = [&](std::int32_t a, std::int32_t b) { return place(a) == place(b); };
+        face.erase(std::unique(face.begin(), face.end(), is_same), face.end());
         if (face.size() > 1 && place(face.back()) == place(face.front())) face.pop_back();
         if (face.size() < 3) continue;
         double sum = 0, turned = 0, most = 0;

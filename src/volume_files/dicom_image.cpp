@@ -9,6 +9,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "base/content_hash.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "volume_files/byte_readers.h"
@@ -201,6 +202,18 @@ void normalize(const DicomImage& image, char* pixels, std::size_t count) {
     });
 }
 
+// Returns the bytes of a frame in its file. Compressed pixels are those up to the end of their
+// file.
+std::string stored_pixels(const DicomImage& image, const DicomFrame& frame) {
+    const std::size_t bytes = image.frame_bytes();
+    const std::size_t before = image.compressed ? 0 : static_cast<std::size_t>(frame.index) * bytes;
+    const OpenedFile file =
+        open_to_read(image.file, static_cast<std::int64_t>(image.pixels_begin + before));
+    std::string pixels(image.compressed ? bytes_left(file.get()) : bytes, '\0');
+    pixels.resize(std::fread(pixels.data(), 1, pixels.size(), file.get()));
+    return pixels;
+}
+
 }  // namespace
 
 std::optional<DicomImage> read_dicom_image(const std::filesystem::path& file) {
@@ -260,23 +273,17 @@ void DicomPixels::read(std::int64_t frame, char* to) const {
     normalize(image_, to, bytes / bytes_of(image_.type));
 }
 
+std::optional<std::uint64_t> pixel_hash(const DicomImage& image, const DicomFrame& frame) {
+    if (image.compressed && image.frame_count > 1) return {};
+    ContentHash hash;
+    hash.add(stored_pixels(image, frame));
+    return hash.word();
+}
+
 bool same_pixels(const DicomImage& a, const DicomFrame& in_a, const DicomImage& b,
                  const DicomFrame& in_b) {
-    const bool several = a.frame_count > 1 || b.frame_count > 1;
-    if (a.compressed != b.compressed || a.frame_bytes() != b.frame_bytes()) return false;
-    if (a.compressed && several) return false;
-    const auto stored = [](const DicomImage& image, const DicomFrame& frame) {
-        const std::size_t bytes = image.frame_bytes();
-        const std::size_t before =
-            image.compressed ? 0 : static_cast<std::size_t>(frame.index) * bytes;
-        const OpenedFile file =
-            open_to_read(image.file, static_cast<std::int64_t>(image.pixels_begin + before));
-        // Compressed pixels are compared to the end of their file.
-        std::string pixels(image.compressed ? bytes_left(file.get()) : bytes, '\0');
-        pixels.resize(std::fread(pixels.data(), 1, pixels.size(), file.get()));
-        return pixels;
-    };
-    return stored(a, in_a) == stored(b, in_b);
+    return a.compressed == b.compressed && a.frame_bytes() == b.frame_bytes() &&
+           stored_pixels(a, in_a) == stored_pixels(b, in_b);
 }
 
 }  // namespace lamina

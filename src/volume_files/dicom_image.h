@@ -82,8 +82,10 @@ class DicomPixels {
     std::string decoded_;
 };
 
-// Tells if two frames have the same pixels in their files. Those of compressed images with several
-// frames count as different.
+// Returns a hash of a frame's pixels as they lie in its file; nothing for compressed images with
+// several frames, whose pixels count as different.
+std::optional<std::uint64_t> pixel_hash(const DicomImage& image, const DicomFrame& frame);
+// Tells if two frames that have hashes have the same pixels in their files.
 bool same_pixels(const DicomImage& a, const DicomFrame& in_a, const DicomImage& b,
                  const DicomFrame& in_b);
 

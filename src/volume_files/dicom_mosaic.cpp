@@ -101,8 +101,11 @@ void cut_mosaic(const DicomElements& elements, DicomImage& image) {
             "header (0029,1010) with NumberOfImagesInMosaic and SliceNormalVector";
         return;
     }
-    const auto edge = static_cast<std::int64_t>(std::ceil(std::sqrt(std::max(count[0], 0.0))));
-    if (!(count[0] >= 1 && edge <= 256) || image.columns % edge != 0 || image.rows % edge != 0) {
+    constexpr double most_tiles = 256 * 256;
+    const auto edge =
+        static_cast<std::int64_t>(std::ceil(std::sqrt(std::clamp(count[0], 1.0, most_tiles))));
+    if (!(count[0] >= 1 && count[0] <= most_tiles) || image.columns % edge != 0 ||
+        image.rows % edge != 0) {
         fail("{}: NumberOfImagesInMosaic: found {}, expected a number of tiles of {} x {} pixels",
              name, count[0], image.columns, image.rows);
     }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <map>
 #include <optional>
 
 #include "base/client.h"
@@ -133,12 +135,20 @@ void remove_twins(Places& places, const std::string& file) {
     for (auto& place : places) {
         if (place.size() > most) continue;
         std::vector<DicomSlice> kept;
+        std::multimap<std::uint64_t, DicomSlice> known;  // by hash: each file is read once
         for (const DicomSlice& slice : place) {
             check_interrupt();
-            const auto is_same = [&](const DicomSlice& other) {
-                return same_pixels(*other.image, *other.frame, *slice.image, *slice.frame);
+            const auto hash = pixel_hash(*slice.image, *slice.frame);
+            const auto is_same = [&](const auto& other) {
+                const auto& [image, frame] = other.second;
+                return same_pixels(*image, *frame, *slice.image, *slice.frame);
             };
-            if (std::ranges::none_of(kept, is_same)) kept.push_back(slice);
+            if (hash) {
+                const auto [first, last] = known.equal_range(*hash);
+                if (std::any_of(first, last, is_same)) continue;
+                known.emplace(*hash, slice);
+            }
+            kept.push_back(slice);
         }
         removed += place.size() - kept.size();
         place = std::move(kept);

@@ -316,7 +316,8 @@ class VtkHdfReader {
                              layout.array.substr(name)));
         const double first =
             offsets.empty() ? static_cast<double>(step) : offsets[static_cast<std::size_t>(step)];
-        layout.request.time = static_cast<std::int64_t>(std::clamp(first, -1.0, 1e12));
+        const bool is_index = first >= 0 && first < 1e12;  // not if it is NaN
+        layout.request.time = is_index ? static_cast<std::int64_t>(first) : -1;
     }
 
     static constexpr const char* root = "/VTKHDF";

@@ -27,7 +27,8 @@
 namespace lamina {
 namespace {
 
-constexpr rlim_t seconds_for_headers = 5;  // of processor time
+constexpr rlim_t seconds_for_headers = 5;   // of processor time
+constexpr std::size_t most_text = 1 << 16;  // bytes of a warning or refusal
 
 // Kinds of messages from the isolated process; the length (a std::size_t) follows the kind.
 enum Message : char { warning = 'W', refusal = 'E', result = 'R' };
@@ -114,7 +115,10 @@ class OwnLine final : public IsolatedLine {
                            send_all(line_, bytes, count);
         if (!heard) _exit(1);
     }
-    void text(char kind, const std::string& text) const { message(kind, text.data(), text.size()); }
+    // Sends a warning or a refusal; names in damaged files may make it very long.
+    void text(char kind, const std::string& text) const {
+        message(kind, text.data(), std::min(text.size(), most_text));
+    }
 
   private:
     int line_, memory_;
@@ -226,7 +230,6 @@ void IsolatedProcess::receive(void* bytes, std::size_t count) {
             kill(process_, SIGKILL);  // the library has overwritten memory that is not its own
             fail_as_ended();
         }
-        constexpr std::size_t most_text = 1 << 16;
         std::string text(std::min(length, most_text), '\0');
         expect_all(text.data(), text.size());
         if (kind == refusal) throw Error(text);

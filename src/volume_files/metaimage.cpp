@@ -149,14 +149,10 @@ class MetaImage {
                         fields_.file(), one_line(fields_.text("CenterOfRotation").substr(0, 80))));
     }
 
-    // Fills in what the header says about channels and times; the file must have them.
-    void fill(VolumeContents& contents) const {
+    // ITK and VTK write colours so, and vectors as other types.
+    bool is_colour() const {
         const std::int64_t channels = channel_count();
-        if (channels > 1) contents.channels.resize(static_cast<std::size_t>(channels));
-        if (dimensions_ == 4 && sizes_[3] > 1)
-            contents.times.resize(static_cast<std::size_t>(sizes_[3]));
-        // ITK and VTK write colours so, and vectors as other types.
-        contents.is_colour = (channels == 3 || channels == 4) && type() == ValueType::uint8;
+        return (channels == 3 || channels == 4) && type() == ValueType::uint8;
     }
 
     Grid grid() const {
@@ -317,7 +313,7 @@ Volume open_metaimage(const Path& path, const VolumeRequest& request, const Volu
     const Grid grid = image.grid();
     image.say_what_is_not_used();
     const Volume volume = open_stored(grid, image.data(request), use);
-    if (use.contents != nullptr) image.fill(*use.contents);
+    if (use.contents != nullptr) use.contents->is_colour = image.is_colour();
     return volume;
 }
 

@@ -358,25 +358,21 @@ std::vector<StoredAxis> axes_of(const NiftiHeader& header, std::int64_t colors,
 }
 
 // Names the steps of the fourth axis in its unit, if the header says how far they are apart.
-std::vector<std::string> nifti_times_of(const NiftiHeader& header) {
+void name_nifti_times(const NiftiHeader& header, std::vector<std::string>& times) {
     constexpr const char* units[] = {"", "s", "ms", "us", "Hz", "ppm", "rad/s", ""};
-    std::vector<std::string> times(static_cast<std::size_t>(header.dim[4]));
     const std::string unit = units[header.units >> 3 & 7];  // NIFTI_UNITS_* / 8
     const double step = header.pixdim[4];
     for (std::size_t i = 0; i < times.size() && !unit.empty() && step > 0; ++i) {
         times[i] =
             fmt::format("{:.6g} {}", header.first_time + static_cast<double>(i) * step, unit);
     }
-    return times;
 }
 
+// Completes what open_stored() has listed.
 void fill_nifti_contents(const NiftiHeader& header, std::int64_t colours,
                          VolumeContents& contents) {
     constexpr std::int64_t rgb_vector = 2003, rgba_vector = 2004;  // NIFTI_INTENT_*
-    const std::int64_t vectors = header.dim[0] > 4 ? header.dim[5] : 1;
-    const std::int64_t channels = std::max(colours, vectors);
-    if (channels > 1) contents.channels.resize(static_cast<std::size_t>(channels));
-    if (header.dim[0] > 3 && header.dim[4] > 1) contents.times = nifti_times_of(header);
+    name_nifti_times(header, contents.times);
     contents.is_colour = colours > 1 || header.intent == rgb_vector || header.intent == rgba_vector;
 }
 

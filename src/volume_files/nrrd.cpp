@@ -476,20 +476,14 @@ struct NrrdHeader {
     std::string time_unit;
 };
 
-// Fills in what the header says about channels and times; `data` must fit the file.
+// Completes what open_stored() has listed.
 void fill_nrrd_contents(const NrrdHeader& header, VolumeContents& contents) {
     contents.is_colour = header.is_colour;
-    for (const StoredAxis& axis : header.data.axes) {
-        if (!axis.taken || axis.size == 1) continue;
-        const bool time = std::string_view(axis.what) == "time";
-        std::vector<std::string>& names = time ? contents.times : contents.channels;
-        names.resize(static_cast<std::size_t>(axis.size));
-        if (!time || std::isnan(header.time_step)) continue;
-        for (std::size_t i = 0; i < names.size(); ++i) {
-            names[i] = fmt::format("{:.6g} {}",
-                                   header.first_time + static_cast<double>(i) * header.time_step,
-                                   header.time_unit);
-        }
+    std::vector<std::string>& times = contents.times;
+    for (std::size_t i = 0; i < times.size() && !std::isnan(header.time_step); ++i) {
+        times[i] =
+            fmt::format("{:.6g} {}", header.first_time + static_cast<double>(i) * header.time_step,
+                        header.time_unit);
     }
 }
 

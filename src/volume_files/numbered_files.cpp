@@ -162,7 +162,8 @@ void warn_of_series(const std::string& name, const std::vector<std::filesystem::
             "a folder of its own",
             name, series.size(), its.size(), one_line(one), others.size(), one_line(other));
     }
-    const auto& [text, parts] = *series.begin();
+    const std::string text = one_line(series.begin()->first);
+    const std::vector<NameParts>& parts = series.begin()->second;
     std::vector<std::size_t> changing;
     for (std::size_t i = 0; i < parts[0].numbers.size(); ++i) {
         if (std::ranges::any_of(parts, [&](const NameParts& each) {
@@ -174,7 +175,7 @@ void warn_of_series(const std::string& name, const std::vector<std::filesystem::
         fail(
             "{}: found {} numbers that change in the names '{}', expected one, of the slice: give "
             "each channel and time a folder of its own",
-            name, changing.size(), one_line(text));
+            name, changing.size(), text);
     }
     std::vector<std::int64_t> numbers;
     for (const NameParts& each : parts)
@@ -184,7 +185,7 @@ void warn_of_series(const std::string& name, const std::vector<std::filesystem::
         warn(fmt::format(
             "{}: in the series '{}' the numbers {} are missing: the slices beside a gap "
             "are neighbours here",
-            name, one_line(text), gaps));
+            name, text, gaps));
     }
 }
 

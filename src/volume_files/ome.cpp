@@ -8,6 +8,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "volume_files/tiff_description.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 namespace {
@@ -154,20 +155,19 @@ class OmeReader {
 
     void name_channels_and_times() {
         std::vector<std::string> channels, times;
-        std::int64_t samples = 0;
+        std::uint64_t samples = 0;  // wraps if a damaged file says too many
         for (const Node channel : pixels_.children("Channel")) {
             channels.push_back(ome_text(channel, "Name"));
-            samples += channel.attribute("SamplesPerPixel").as_llong(1);
+            samples += channel.attribute("SamplesPerPixel").as_ullong(1);
         }
-        const std::int64_t size = pixels_.attribute("SizeC").as_llong(1);
+        const std::uint64_t size = pixels_.attribute("SizeC").as_ullong(1);
         if (samples > 0 && samples != size)
             say("{}: {} Channel elements have {} channels, SizeC is {}, which counts", file_,
                 channels.size(), samples, size);
         const double increment = pixels_.attribute("TimeIncrement").as_double(0);
+        const std::string unit = unit_word(pixels_.attribute("TimeIncrementUnit").as_string("s"));
         for (std::int64_t t = 0; increment > 0 && t < sizes_['T']; ++t)
-            times.push_back(
-                fmt::format("{:g} {}", static_cast<double>(t) * increment,
-                            one_line(pixels_.attribute("TimeIncrementUnit").as_string("s"))));
+            times.push_back(fmt::format("{:g} {}", static_cast<double>(t) * increment, unit));
         for (TiffAxis& axis : found_.axes)
             if (axis.letter != 'Z') axis.names = axis.letter == 'C' ? channels : times;
     }

@@ -201,8 +201,13 @@ class JpegFile {
     JpegFile& operator=(const JpegFile&) = delete;
     ~JpegFile() { jpeg_destroy_decompress(&state_); }
 
-    // Reads one channel of all pixels, row by row.
-    void read(int channel, char* to) {
+    // Reads one channel of all pixels, row by row, of a picture that jpeg_kind() has found.
+    void read(const PictureKind& kind, int channel, char* to) {
+        // A damaged file may have a second frame, to which libjpeg comes by another way.
+        if (PictureKind{state_.image_width, state_.image_height, state_.num_components} != kind) {
+            fail("{}: damaged: libjpeg finds {} x {} pixels of {} samples, expected {}", name_,
+                 state_.image_width, state_.image_height, state_.num_components, kind.text());
+        }
         const auto channels = static_cast<std::size_t>(state_.num_components);
         std::vector<JSAMPLE> row(state_.image_width * channels);
         JSAMPROW rows[] = {row.data()};
@@ -235,7 +240,7 @@ class JpegFile {
 // Reads one channel of a picture, row by row.
 void read_picture(const Path& path, const PictureKind& kind, int channel, char* to) {
     check_interrupt();
-    if (!has_png_mark(path)) return JpegFile(path).read(channel, to);
+    if (!has_png_mark(path)) return JpegFile(path).read(kind, channel, to);
     const CodedImage image = read_png(path);
     const auto channels = static_cast<std::size_t>(image.channels);
     for (std::size_t i = static_cast<std::size_t>(channel); i < image.codes.size(); i += channels) {

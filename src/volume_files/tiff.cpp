@@ -110,11 +110,11 @@ class TiffStack {
         const auto [known, is_new] = pages_of_.try_emplace(number);
         std::vector<TiffPage>& pages = known->second;
         if (!is_new) return pages;
-        check_interrupt();
         TiffFile& file = open(number);
         file.go_to_first();
         std::uint64_t most = 0;
         do {
+            check_interrupt();
             if (++listed_ > most_pages) fail("{}: found more than {} pages", name_, most_pages);
             most = std::max(most, file.capacity());
             pages.push_back(file.page());
@@ -258,6 +258,10 @@ class TiffStack {
     void list_planes() {
         type_ = page_.type(name_);
         if (is_behind_) return;
+        // Pages may say any depth, and packed pixels any number of samples.
+        constexpr std::int64_t most_slices = most_pages;
+        if (slices_ > most_slices)
+            fail("{}: found {} slices, expected up to {}", name_, slices_, most_slices);
         for (std::int64_t slice = 0; slice < slices_; ++slice) {
             std::int64_t number = 0, step = 1;
             for (const StoredAxis& axis : taken_) {

@@ -84,8 +84,8 @@ void name_frames(const ImageJValues& values, TiffAxis& frames) {
     constexpr std::int64_t most = std::int64_t{1} << 20;  // before the pages are compared with it
     const double interval = std::strtod(imagej_value(values, "finterval").c_str(), nullptr);
     if (!is_distance(interval) || frames.size > most) return;
-    const std::string own = one_line(imagej_value(values, "tunit"));
-    const std::string unit = own.empty() || own == "sec" ? "s" : own;
+    const std::string own = imagej_value(values, "tunit");
+    const std::string unit = own.empty() || own == "sec" ? "s" : unit_word(own);
     for (std::int64_t t = 0; t < frames.size; ++t)
         frames.names.push_back(fmt::format("{:g} {}", static_cast<double>(t) * interval, unit));
 }

@@ -135,10 +135,11 @@ void TiffFile::read(const TiffPage& page, std::int64_t sample, std::int64_t imag
     message_.clear();
     if (field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) == PHOTOMETRIC_YCBCR)
         TIFFSetField(tiff_.get(), TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
-    if (TIFFIsTiled(tiff_.get()) != 0)
-        read_tiles(page, sample, image, to);
-    else
-        read_strips(page, sample, to);
+    if (is_tiled()) return read_tiles(page, sample, image, to);
+    if (page.depth > 1)
+        fail("{}: page {}: found {} images in strips, of which libtiff reads the first alone",
+             name_, number_ + 1, page.depth);
+    read_strips(page, sample, to);
 }
 
 std::optional<std::int64_t> TiffFile::raw_samples() const {
@@ -149,7 +150,9 @@ std::optional<std::int64_t> TiffFile::raw_samples() const {
             TIFFGetStrileOffset(tiff, i + 1))
             return {};
     }
-    return static_cast<std::int64_t>(TIFFGetStrileOffset(tiff, 0));
+    const std::uint64_t begin = TIFFGetStrileOffset(tiff, 0);
+    if (begin > file_bytes_) return {};
+    return static_cast<std::int64_t>(begin);
 }
 
 TiffBeginning TiffFile::beginning() const {

@@ -206,6 +206,8 @@ void list_taken(const StoredData& data, VolumeContents& contents) {
 }  // namespace
 
 Volume open_stored(const Grid& grid, const StoredData& data, const VolumeUse& use) {
+    const std::string name = data.path.string();
+    const std::size_t bytes = stored_bytes(name, data.axes, bytes_of(data.type), true);
     if (use.contents != nullptr) list_taken(data, *use.contents);
     if (StreamSource::can_read(data) && use.residence == VolumeUse::Residence::in_order)
         return stored_volume(grid, *drawn_type(data.type),
@@ -219,9 +221,7 @@ Volume open_stored(const Grid& grid, const StoredData& data, const VolumeUse& us
         if (data.encoding == DataEncoding::raw)
             why = data.is_scaled() ? "its samples are scaled"
                                    : fmt::format("its samples are of type {}", name_of(data.type));
-        expect_room(data.path.string(),
-                    static_cast<std::uint64_t>(grid.sample_count()) * bytes_of(data.type), use,
-                    why);
+        expect_room(name, bytes, use, why);
     }
     return drawn_volume(grid, read_stored(data));
 }

@@ -7,7 +7,6 @@
 #include "input_parts.h"
 #include "runs.h"
 #include "scratch_folder.h"
-#include "violation.h"
 #include "volume_check.h"
 
 namespace lamina::fuzz {
@@ -39,7 +38,7 @@ void run_nrrd(std::string_view input) {
     if (!data_file_stays_in_folder(parts.first)) return;
     const auto file = scratch_file("volume.nrrd", parts.first);
     scratch_file("data", parts.second);
-    may_fail([&] { check_volume(open_nrrd(file)); });
+    check_volume([&](const VolumeUse& use) { return open_nrrd(file, {}, use); });
 }
 
 }  // namespace lamina::fuzz

@@ -11,9 +11,7 @@ namespace {
 // Largest number of samples of a volume that is planned.
 constexpr std::int64_t most_planned = 4096;
 
-}  // namespace
-
-void check_volume(const Volume& volume) {
+void check_opened(const Volume& volume) {
     const MinMaxBricks bricks = measure_bricks(volume);
     const Grid::Bounds bounds = volume.grid().bounds();
     for (int axis = 0; axis < 3; ++axis) {
@@ -25,6 +23,15 @@ void check_volume(const Volume& volume) {
         scene_around({bounds.min, bounds.max}, bricks.whole.lo, bricks.whole.hi, Method::slice);
     scene.nan = NanPolicy::transparent;
     check_slice_plans(scene, volume);
+}
+
+}  // namespace
+
+void check_volume(const std::function<Volume(const VolumeUse& use)>& open) {
+    VolumeContents contents;
+    VolumeUse use;
+    use.contents = &contents;
+    may_fail([&] { check_opened(open(use)); });
 }
 
 }  // namespace lamina::fuzz

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lamina/volume.h"
+#include <functional>
+
+#include "volume_files/volume_opening.h"
 
 namespace lamina::fuzz {
 
-// Measures a volume that was read and, if it is small, plans its picture.
-void check_volume(const Volume& volume);
+// Opens a volume, lists what its file has, measures it and, if it is small, plans its picture:
+// open(use) opens it, or throws Error.
+void check_volume(const std::function<Volume(const VolumeUse& use)>& open);
 
 }  // namespace lamina::fuzz

@@ -6,7 +6,6 @@
 #include "input_parts.h"
 #include "runs.h"
 #include "scratch_folder.h"
-#include "violation.h"
 #include "volume_check.h"
 #include "volume_files/volume_formats.h"
 
@@ -30,7 +29,7 @@ void run_reader(std::string_view input, const char* name,
                 Volume (*open)(const std::filesystem::path&, const VolumeRequest&,
                                const VolumeUse&)) {
     const auto file = scratch_file(name, input);
-    may_fail([&] { check_volume(open(file, {}, {})); });
+    check_volume([&](const VolumeUse& use) { return open(file, {}, use); });
 }
 
 }  // namespace

@@ -167,5 +167,21 @@ TEST_F(HeaderWords, OfMetaImageAreUsedOrNamed) {
               (std::vector<std::uint8_t>{'1', '2'}));
 }
 
+// A small compressed file can promise, and hold, any number of times.
+TEST_F(HeaderWords, ListUpTo65536Times) {
+    for (const std::size_t count : {65536u, 65537u}) {
+        const std::string samples(count, '1'), size = "1 1 1 " + std::to_string(count);
+        const auto nrrd = write("t.nrrd", nrrd_4d + "sizes: " + size +
+                                              "\nkinds: domain domain domain time\n\n" + samples);
+        const auto meta = write("t.mha", "ObjectType = Image\nNDims = 4\nDimSize = " + size +
+                                             "\nElementType = MET_UCHAR\n"
+                                             "ElementDataFile = LOCAL\n" +
+                                             samples);
+        const std::size_t listed = count == 65536 ? count : 0;
+        EXPECT_EQ(contents_of(nrrd).times.size(), listed);
+        EXPECT_EQ(contents_of(meta).times.size(), listed);
+    }
+}
+
 }  // namespace
 }  // namespace lamina

@@ -12,6 +12,11 @@
 #include <string>
 #include <thread>
 
+#include "base/client.h"
+#include "base/error.h"
+#include "support/expect_error.h"
+#include "support/heard_warnings.h"
+
 namespace lamina {
 namespace {
 
@@ -45,6 +50,22 @@ TEST(IsolatedProcess, EndsWhenItsStarterIsKilled) {
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
     EXPECT_FALSE(is_running(isolated));
     for (const int end : line) close(end);
+}
+
+TEST(IsolatedProcess, CutsLongTextsOffAndGoesOn) {
+    const test::HeardWarnings heard;
+    IsolatedProcess process("name", "library", [](IsolatedLine& line) {
+        warn(std::string(1 << 17, 'w'));
+        line.answer("answer", 6);
+        fail("{}", std::string(1 << 17, 'e'));
+    });
+    std::string answer(6, ' ');
+    process.receive(answer.data(), answer.size());
+    EXPECT_EQ(answer, "answer");
+    ASSERT_EQ(heard.texts.size(), 1u);
+    EXPECT_EQ(heard.texts[0], std::string(1 << 16, 'w'));
+    expect_error([&] { process.receive(answer.data(), answer.size()); },
+                 {std::string(1 << 16, 'e')});
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/client.h"
+#include "corpus_files.h"
 #include "expect_boxes.h"
 #include "support/expect_error.h"
 #include "support/heard_warnings.h"
@@ -153,6 +154,39 @@ TEST(ImageJStacks, NameFramesByTheirTimes) {
     write(folder / "a.tif", tiff_of(pixels, 6, text + "tunit=min\n"));
     open_volume(folder / "a.tif", {}, listing(contents));
     EXPECT_EQ(contents.times, (std::vector<std::string>{"0 min", "2.5 min", "5 min"}));
+    // Damaged files may name 2^20 frames: none repeats a text that is no unit.
+    write(folder / "a.tif", tiff_of(pixels, 6, text + "tunit=" + std::string(33, 'm') + "\n"));
+    open_volume(folder / "a.tif", {}, listing(contents));
+    EXPECT_EQ(contents.times, (std::vector<std::string>{"0 ", "2.5 ", "5 "}));
+}
+
+TEST(OmeStacks, NameFramesByTheirTimes) {
+    const TemporaryFolder folder;
+    const std::string pixels = test::noise_bytes(2 * width * height);
+    for (const auto& [unit, name] :
+         {std::pair<std::string, std::string>{"ms", "1.5 ms"}, {std::string(33, 'm'), "1.5 "}}) {
+        VolumeContents contents;
+        write(folder / "a.ome.tif",
+              tiff_of(pixels, 2,
+                      fmt::format("<OME><Image><Pixels SizeX=\"6\" SizeY=\"5\" SizeT=\"2\" "
+                                  "TimeIncrement=\"1.5\" TimeIncrementUnit=\"{}\"/></Image></OME>",
+                                  unit)));
+        open_volume(folder / "a.ome.tif", {}, listing(contents));
+        EXPECT_EQ(contents.times.at(1), name);
+    }
+}
+
+TEST(PictureStacks, RefuseASecondFrameOfAJpegFile) {
+    // libjpeg reads on behind the marker TEM, FF 01; whoever takes what follows for a length skips
+    // the picture, and comes to another frame header, of one pixel.
+    const std::string good = testing::corpus_file("pictures/grey.jpg");
+    std::string file = good.substr(0, 2) + "\xff\x01" + good.substr(2);
+    file.resize(4 + (0xff00 | static_cast<unsigned char>(file[5])));
+    file += std::string("\xff\xc0\0\x0b\x08\0\1\0\1\1\1\x11\0", 13);
+    const TemporaryFolder folder;
+    write(folder / "a.jpg", file);
+    expect_error([&] { read_volume(folder / "a.jpg"); },
+                 {"a.jpg: damaged: libjpeg finds 6 x 4 pixels", "expected 1 x 1 pixels"});
 }
 
 TEST(TiffStacks, ListChannelsTimesAndColours) {

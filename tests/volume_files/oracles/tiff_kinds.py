@@ -211,6 +211,10 @@ def shaped(cases, tifffile):
     cases.add("separate.tif", volume)
     tifffile.imwrite(cases.path("depth.tif"), volume, photometric="minisblack", volumetric=True)
     cases.add("depth.tif", volume)
+    with tifffile.TiffWriter(cases.path("depth_twice.tif")) as out:
+        for _ in range(2):
+            out.write(volume, photometric="minisblack", volumetric=True)
+    cases.refuse("depth_twice.tif", "page 1: found 8 images in strips")
     for order in "<>":
         file = f"depth_tiles{order == '<'}.tif"
         tifffile.imwrite(cases.path(file), volume, photometric="minisblack", tile=(4, 16, 16), byteorder=order)
