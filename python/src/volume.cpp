@@ -79,6 +79,15 @@ std::array<std::string, 3> centers_of(const Volume& volume) {
     return words;
 }
 
+// Returns code, number and name of each label.
+std::vector<std::tuple<int, std::string, std::string>> labels_of(const Volume& volume) {
+    std::vector<std::tuple<int, std::string, std::string>> list;
+    if (!volume.labels()) return list;
+    for (const Label& label : volume.labels()->list)
+        list.emplace_back(static_cast<int>(label.code), label.number, label.name);
+    return list;
+}
+
 }  // namespace
 
 void bind_volume(py::module_& module) {
@@ -119,6 +128,19 @@ void bind_volume(py::module_& module) {
                                    const bool linear = volume.grid().lookup == VolumeLookup::linear;
                                    return std::string(linear ? "linear" : "nearest");
                                })
+        .def_property_readonly("labels", &labels_of)
+        .def("with_labels_of",
+             [](const Volume& volume, const Volume& other) {
+                 return volume.labelled(other.labels());
+             },
+             py::arg("other"))
+        .def_property_readonly("labels", &labels_of)
+        .def(
+            "with_labels_of",
+            [](const Volume& volume, const Volume& other) {
+                return volume.labelled(other.labels());
+            },
+            py::arg("other"))
         .def_property_readonly("bounds", &bounds_of);
 }
 

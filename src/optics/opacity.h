@@ -59,5 +59,7 @@ std::vector<TransferKnot> linear_in_opacity(const std::vector<GivenPoint>& point
                                             double unit_length);
 
 inline constexpr std::size_t most_scene_points = 4096;
+// Largest number of points that a scene gives: a palette of 65,535 labels has two for each.
+inline constexpr std::size_t most_given_points = std::size_t{1} << 17;
 
 }  // namespace lamina

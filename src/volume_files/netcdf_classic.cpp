@@ -368,7 +368,8 @@ Volume open_netcdf_classic(const std::filesystem::path& path, const VolumeReques
         values.mark(count, true, stored.get(), samples.get());
     }
     return drawn_volume(place.grid,
-                        {path.string(), values.type(), samples, values.scale(), values.offset()});
+                        {path.string(), values.type(), samples, values.scale(), values.offset()},
+                        use.lookup);
 }
 
 std::vector<std::filesystem::path> files_of_netcdf_classic(const std::filesystem::path& path) {
