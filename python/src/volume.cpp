@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "bindings.h"
 #include "lamina/scene.h"
@@ -128,12 +131,6 @@ void bind_volume(py::module_& module) {
                                    const bool linear = volume.grid().lookup == VolumeLookup::linear;
                                    return std::string(linear ? "linear" : "nearest");
                                })
-        .def_property_readonly("labels", &labels_of)
-        .def("with_labels_of",
-             [](const Volume& volume, const Volume& other) {
-                 return volume.labelled(other.labels());
-             },
-             py::arg("other"))
         .def_property_readonly("labels", &labels_of)
         .def(
             "with_labels_of",

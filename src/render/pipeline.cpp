@@ -38,6 +38,8 @@ ContextChoice context_for_files(const Auto<ContextChoice>& choice) {
 // exactly, and it has no gradient that could be lit. Throws Error if the scene asks for other
 // segments.
 void settle_for_voxels(Scene& scene) {
+    if (VolumeFile* const file = scene.volume_file())
+        file->selection.lookup = VolumeLookup::nearest;
     const Auto<Classification>& asked = scene.slice.classification;
     if (asked.is_given() && asked != Classification::exact) {
         fail(

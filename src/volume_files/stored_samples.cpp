@@ -127,8 +127,11 @@ Rounded round_samples(const From* from, std::int64_t count, float* to) {
 void warn_of(const Rounded& rounded, const StoredSamples& samples, std::int64_t count) {
     const char* const type = name_of(samples.type);
     if (rounded.inexact > 0) {
-        warn(fmt::format("{}: {} of {} {} samples are rounded to float, by up to {:.3g}",
-                         samples.file, rounded.inexact, count, type, rounded.largest_error));
+        const char* const hint = is_integer(samples.type)
+                                     ? ": \"lookup\": \"nearest\" in the volume keeps labels apart"
+                                     : "";
+        warn(fmt::format("{}: {} of {} {} samples are rounded to float, by up to {:.3g}{}",
+                         samples.file, rounded.inexact, count, type, rounded.largest_error, hint));
     }
     if (rounded.infinite > 0) {
         warn(fmt::format("{}: {} of {} {} samples are beyond float, and infinite", samples.file,
@@ -188,8 +191,8 @@ std::shared_ptr<const VolumeLabels> table_of_labels(const std::vector<From>& val
     VolumeLabels labels{.renumbered = true, .list = {}};
     using Whole = std::conditional_t<std::is_integral_v<From>, From, std::int64_t>;
     for (const From value : values) {
-        labels.list.push_back({static_cast<double>(labels.list.size()),
-                               std::to_string(static_cast<Whole>(value))});
+        labels.list.push_back(
+            {static_cast<double>(labels.list.size()), std::to_string(static_cast<Whole>(value))});
     }
     return std::make_shared<const VolumeLabels>(std::move(labels));
 }

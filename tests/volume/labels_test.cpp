@@ -87,12 +87,11 @@ TEST(Labels, OfLargeVolumesAreKnownBySomeRows) {
     const auto share = share_if_labels(volume);
     ASSERT_TRUE(share);
     EXPECT_NEAR(*share, 1 - 2. / 260, 1. / 260);  // two slices differ, each by chance in the rows
-    const auto source = std::make_unique<test::SourceInMemory>(volume);
+    auto source = std::make_unique<test::SourceInMemory>(volume);
     const test::SourceInMemory& read = *source;
     const Volume stored(
         grid, SampleType::uint8,
-        std::make_shared<const VolumeStore>(grid, SampleType::uint8,
-                                            std::unique_ptr<const SampleSource>(source.release())));
+        std::make_shared<const VolumeStore>(grid, SampleType::uint8, std::move(source)));
     EXPECT_EQ(share_if_labels(stored), share);
     EXPECT_LT(read.samples_read, grid.sample_count() * 3);
 }

@@ -2,7 +2,6 @@
 // Labels in files: taken for what they are, numbered if 16 bits do not hold them, and said.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "corpus_files.h"
@@ -191,28 +190,6 @@ TEST_F(LabelFiles, KeepTheirNumbersInBrickedCopies) {
     EXPECT_EQ(copy.grid().lookup, VolumeLookup::nearest);
     EXPECT_EQ(numbers_of(copy), numbers_of(whole));
     test::expect_boxes(whole, copy);
-}
-
-std::filesystem::path data_folder() {
-    if (const char* const folder = std::getenv("LAMINA_DATA")) return folder;
-    return std::filesystem::path(LAMINA_SOURCE_DIR) / ".." / "shared" / "data";
-}
-
-// None of the project's data are labels, also those that are mostly empty.
-TEST_F(LabelFiles, AreNoneOfTheProjectsData) {
-    if (!std::filesystem::exists(data_folder())) GTEST_SKIP() << data_folder() << " is not there";
-    int read = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(data_folder())) {
-        const std::filesystem::path path = entry.path();
-        try {
-            if (!is_volume_file(path)) continue;
-            EXPECT_EQ(read_volume(path).grid().lookup, VolumeLookup::linear) << path;
-            ++read;
-        } catch (const Error&) {
-            continue;  // other tests say which are refused
-        }
-    }
-    EXPECT_GT(read, 10);
 }
 
 }  // namespace
