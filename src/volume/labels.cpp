@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <memory>
 #include <mutex>
-#include <numeric>
 #include <type_traits>
 #include <unordered_map>
 #include <utility>
@@ -22,73 +21,70 @@ using Size = std::array<std::int64_t, 3>;
 
 constexpr double least_equal = .95, least_equal_pairs = .5;
 constexpr std::int64_t all_measured = std::int64_t{1} << 24;  // samples
-constexpr std::int64_t some_measured = std::int64_t{1} << 21;
-constexpr std::int64_t fewest_rows = 64;
+constexpr std::int64_t some_measured = std::int64_t{1} << 22, fewest_slices = 8;
+constexpr std::int64_t rows_together = 256;  // of a slice, read and measured together
 
 // How often a value occurs, and in how many pairs of neighbours, equal and different ones.
 struct Tally {
     std::int64_t samples = 0, equal = 0, different = 0;
 };
 
-// The rows of a volume that are measured: all, or every step-th in the order of the file. The step
-// is coprime to the rows of a slice, so that rows do not lie above one another.
-struct MeasuredRows {
-    explicit MeasuredRows(const Size& size) : rows(size[1] * size[2]) {
-        if (rows * size[0] <= all_measured) return;
-        const std::int64_t wanted = std::max(fewest_rows, some_measured / size[0]);
-        step = std::max<std::int64_t>(1, rows / wanted);
-        while (step > 1 && std::gcd(step, size[1]) > 1) ++step;
+// The slices of a volume that are measured: all, or evenly spread ones.
+struct MeasuredSlices {
+    explicit MeasuredSlices(const Size& size) : of(size[2]), count(size[2]) {
+        const std::int64_t slice = size[0] * size[1];
+        if (slice * of > all_measured)
+            count = std::min(of, std::max(fewest_slices, some_measured / slice));
     }
-    std::int64_t count() const { return (rows + step - 1) / step; }
+    std::int64_t at(std::int64_t number) const { return (2 * number + 1) * of / (2 * count); }
 
-    std::int64_t rows, step = 1;
+    std::int64_t of, count;
 };
 
-// Measures samples of type T. window(y, z) returns a SampleWindow that holds the row (y, z) and its
-// neighbours, whole.
+// Measures samples of type T. window(z, first, end) returns a SampleWindow that holds the rows from
+// `first` to `end` - 1 of a slice, and all beside them.
 template <typename T, typename Window>
 class LabelMeasure {
   public:
     LabelMeasure(const Size& size, const Window& window)
-        : size_(size), rows_(size), window_(window) {}
+        : size_(size), slices_(size), window_(window) {}
 
     std::optional<double> share() {
-        equal_six_ = 0;
-        for_rows([&](std::int64_t first, std::int64_t end) { count_equal(first, end); });
-        const double measured = static_cast<double>(rows_.count() * size_[0]);
+        for_bands([&](const auto&... band) { count_equal(band...); });
+        const double measured = static_cast<double>(slices_.count * size_[0] * size_[1]);
         const double share = static_cast<double>(equal_six_) / measured;
         if (!whole_ || share < least_equal) return {};
-        for_rows([&](std::int64_t first, std::int64_t end) { tally(first, end); });
+        for_bands([&](const auto&... band) { tally(band...); });
         return has_few_values() && pairs_are_equal() ? std::optional(share) : std::nullopt;
     }
 
   private:
+    // Calls part(z, first, end) for rows that make up all slices that are measured.
     template <typename Part>
-    void for_rows(const Part& part) {
-        constexpr std::int64_t rows_together = 256;
-        const std::int64_t count = rows_.count();
-        parallel_for((count + rows_together - 1) / rows_together, 1, [&](std::int64_t i) {
-            part(i * rows_together, std::min(count, (i + 1) * rows_together));
+    void for_bands(const Part& part) {
+        const std::int64_t bands = (size_[1] + rows_together - 1) / rows_together;
+        parallel_for(slices_.count * bands, 1, [&](std::int64_t i) {
+            const std::int64_t first = i % bands * rows_together;
+            part(slices_.at(i / bands), first, std::min(size_[1], first + rows_together));
         });
     }
 
-    // Calls visit(row, rows beside it: before and after along y, then along z) for some rows.
+    // Calls visit(row, rows beside it: before and after along y, then along z).
     template <typename Visit>
-    void for_each_row(std::int64_t first, std::int64_t end, const Visit& visit) const {
-        for (std::int64_t number = first; number < end; ++number) {
-            const std::int64_t y = number * rows_.step % size_[1];
-            const std::int64_t z = number * rows_.step / size_[1];
-            const auto window = window_(y, z);
+    void for_each_row(std::int64_t z, std::int64_t first, std::int64_t end,
+                      const Visit& visit) const {
+        const auto window = window_(z, first, end);
+        for (std::int64_t y = first; y < end; ++y) {
             visit(window.row(y, z),
                   std::array<const T*, 4>{window.row(y - 1, z), window.row(y + 1, z),
                                           window.row(y, z - 1), window.row(y, z + 1)});
         }
     }
 
-    void count_equal(std::int64_t first, std::int64_t end) {
+    void count_equal(std::int64_t z, std::int64_t first, std::int64_t end) {
         std::int64_t equal = 0;
         bool whole = true;
-        for_each_row(first, end, [&](const T* row, const std::array<const T*, 4>& beside) {
+        for_each_row(z, first, end, [&](const T* row, const std::array<const T*, 4>& beside) {
             const std::int64_t last = size_[0] - 1;
             std::int64_t along = 0;
             for (std::int64_t x = 0; x <= last; ++x) {
@@ -107,9 +103,9 @@ class LabelMeasure {
     }
 
     // Counts values, and pairs of a sample and its next neighbour along each axis.
-    void tally(std::int64_t first, std::int64_t end) {
+    void tally(std::int64_t z, std::int64_t first, std::int64_t end) {
         std::unordered_map<T, Tally> found;
-        for_each_row(first, end, [&](const T* row, const std::array<const T*, 4>& beside) {
+        for_each_row(z, first, end, [&](const T* row, const std::array<const T*, 4>& beside) {
             Tally* current = nullptr;
             for (std::int64_t x = 0; x < size_[0]; ++x) {
                 const T value = row[x];
@@ -157,7 +153,7 @@ class LabelMeasure {
     }
 
     Size size_;
-    MeasuredRows rows_;
+    MeasuredSlices slices_;
     const Window& window_;
     std::mutex merging_;
     std::int64_t equal_six_ = 0;
@@ -170,31 +166,30 @@ std::optional<double> measured(const Size& size, const Window& window) {
     return LabelMeasure<T, Window>(size, window).share();
 }
 
-// The rows around one row of a volume in its files.
+// Rows of a volume in its files, and all beside them.
 template <typename T>
 struct ReadRows {
-    std::vector<T> samples;
-    SampleWindow<T> window;
+    ReadRows(const SampleSource& source, const Size& size, std::int64_t z, std::int64_t first,
+             std::int64_t end) {
+        SampleBox& box = window.box;
+        const std::int64_t begins[] = {first, z}, ends[] = {end, z + 1};
+        box.size[0] = size[0];
+        for (std::size_t i = 0; i < 2; ++i) {
+            box.first[i + 1] = std::max<std::int64_t>(begins[i] - 1, 0);
+            box.size[i + 1] = std::min(ends[i] + 1, size[i + 1]) - box.first[i + 1];
+        }
+        samples.resize(static_cast<std::size_t>(box.count()));
+        source.read(box, samples.data());
+        window.samples = samples.data();
+    }
+    ReadRows(const ReadRows&) = delete;
+    ReadRows& operator=(const ReadRows&) = delete;
 
     const T* row(std::int64_t y, std::int64_t z) const { return window.row(y, z); }
-};
 
-template <typename T>
-ReadRows<T> rows_around(const SampleSource& source, const Size& size, std::int64_t y,
-                        std::int64_t z) {
-    ReadRows<T> read;
-    SampleBox& box = read.window.box;
-    box.size[0] = size[0];
-    const std::int64_t at[] = {0, y, z};
-    for (std::size_t axis = 1; axis < 3; ++axis) {
-        box.first[axis] = std::max<std::int64_t>(at[axis] - 1, 0);
-        box.size[axis] = std::min(at[axis] + 2, size[axis]) - box.first[axis];
-    }
-    read.samples.resize(static_cast<std::size_t>(box.count()));
-    source.read(box, read.samples.data());
-    read.window.samples = read.samples.data();
-    return read;
-}
+    std::vector<T> samples;
+    SampleWindow<T> window;
+};
 
 }  // namespace
 
@@ -202,7 +197,7 @@ std::optional<double> share_if_labels(const Size& size, ValueType type, const vo
     return with_type(type, [&](auto zero) {
         using T = decltype(zero);
         const SampleWindow<T> whole{{{0, 0, 0}, size}, static_cast<const T*>(samples)};
-        return measured<T>(size, [&](std::int64_t, std::int64_t) { return whole; });
+        return measured<T>(size, [&](auto...) { return whole; });
     });
 }
 
@@ -213,8 +208,8 @@ std::optional<double> share_if_labels(const Volume& volume) {
         return share_if_labels(size, *value_type_of(name_of(volume.type())), volume.data());
     return with_sample_type(volume.type(), [&](auto zero) {
         using T = decltype(zero);
-        return measured<T>(size, [&](std::int64_t y, std::int64_t z) {
-            return rows_around<T>(volume.store().source(), size, y, z);
+        return measured<T>(size, [&](auto... rows) {
+            return ReadRows<T>(volume.store().source(), size, rows...);
         });
     });
 }
