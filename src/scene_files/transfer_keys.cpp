@@ -235,6 +235,9 @@ void transfer_keys(KeyTable<GivenTransfer>& keys) {
     keys.key("codes", &GivenTransfer::codes, flag_form(),
              "Values are the codes of labels that do not fit 16 bits (docs/scene.md, \"Labels\"), "
              "in place of the file's numbers.");
+    keys.last().write = [](const GivenTransfer& given, KeyJson& json) {
+        if (given.codes) json["codes"] = true;
+    };
     keys.add(colormap_key()).add(range_key()).add(points_key());
 }
 
