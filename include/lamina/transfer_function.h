@@ -52,6 +52,12 @@ class LAMINA_API TransferFunction {
     static TransferFunction linear_opacity(const std::vector<OpacityKnot>& points,
                                            double unit_length = 1);
 
+    // Tells whether values are codes of a volume's labels (lamina/volume.h, VolumeLabels), and not
+    // the file's numbers. It matters only if the volume is renumbered.
+    bool of_codes() const { return of_codes_; }
+    // Returns this function with values that are codes of labels.
+    TransferFunction with_codes() const;
+
     // Returns the knots, without those that lie on the straight line between their neighbours.
     std::span<const TransferKnot> knots() const { return knots_; }
     OpticalProperties at(double value) const;
@@ -73,6 +79,11 @@ class LAMINA_API TransferFunction {
   private:
     explicit TransferFunction(std::span<const TransferKnot> knots);
     std::vector<TransferKnot> knots_;
+    // Largest extinction of each `block` knots: labels make functions of 100,000 knots, and every
+    // brick asks for its largest extinction.
+    static constexpr std::size_t block = 256;
+    std::vector<double> largest_;
+    bool of_codes_ = false;
 };
 
 }  // namespace lamina

@@ -10,6 +10,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "lamina/error.h"
 
@@ -70,6 +72,21 @@ LAMINA_API const char* name_of(SampleType type);  // "uint8", "int16", "uint16",
 
 class VolumeStore;
 
+// A label of a volume whose samples are labels (docs/scene.md, "Labels").
+struct Label {
+    double code = 0;                    // value of its samples
+    std::string number;                 // the file's number for it, in decimal digits
+    std::string name{};                 // empty if the file gives none
+    std::optional<glm::dvec3> color{};  // linear light; empty if the file gives none
+};
+
+// Labels of which a file says more than its samples do, in the order of their codes.
+struct VolumeLabels {
+    // True if codes stand for the file's numbers, which samples cannot hold; all labels are listed.
+    bool renumbered = false;
+    std::vector<Label> list;
+};
+
 // Scalars on a regular grid, in the file's own type; x changes fastest. A volume is immutable, and
 // copies share the samples. Volumes that do not fit the memory limit (lamina/volume.h) stay in
 // their files, and parts of them are read when they are drawn; the functions of the public headers
@@ -89,6 +106,14 @@ class Volume {
     const VolumeStore& store() const { return *store_; }  // the volume must not be in memory
     const void* data() const { return samples_.get(); }   // null if the volume is not in memory
     const std::shared_ptr<const void>& shared_data() const { return samples_; }
+    // Returns what the file says of its labels; null if it says nothing.
+    const std::shared_ptr<const VolumeLabels>& labels() const { return labels_; }
+    // Returns the same samples with other labels.
+    Volume labelled(std::shared_ptr<const VolumeLabels> labels) const {
+        Volume other = *this;
+        other.labels_ = std::move(labels);
+        return other;
+    }
     // Returns the same samples on another grid, which must have the same number of them along each
     // axis.
     Volume on(const Grid& grid) const {
@@ -125,6 +150,7 @@ class Volume {
     SampleType type_;
     std::shared_ptr<const void> samples_;
     std::shared_ptr<const VolumeStore> store_;
+    std::shared_ptr<const VolumeLabels> labels_;
 };
 
 // Layout of the samples in a file without a header; x changes fastest.
@@ -148,8 +174,9 @@ struct LAMINA_API VolumeRequest {
     // Distances between samples, above 0, and place of the first one, instead of the file's.
     std::optional<glm::dvec3> spacing;
     std::optional<glm::dvec3> origin;
-    std::optional<RawLayout> raw;        // must be given if the file has no header
-    std::optional<VolumeLookup> lookup;  // linear unless given
+    std::optional<RawLayout> raw;  // must be given if the file has no header
+    // If none is given: nearest if the samples are labels (docs/scene.md, "Labels"), else linear.
+    std::optional<VolumeLookup> lookup;
 
     bool operator==(const VolumeRequest&) const = default;
 };

@@ -138,6 +138,14 @@ class Volume:
         return self._core.unit
 
     @property
+    def labels(self) -> dict[int, tuple[int, str]]:
+        """What the file says of labels (docs/scene.md): the number and name of a label, by the value of its samples.
+
+        Values are the file's numbers, as long as 16 bits hold them all.
+        """
+        return {code: (int(number), name) for code, number, name in self._core.labels}
+
+    @property
     def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """Smallest and largest corner of the box that is drawn, in world units."""
         lowest, highest = (_conversion.triple("bounds", corner) for corner in self._core.bounds)
@@ -163,7 +171,7 @@ class Volume:
         0
         """
         core = _lamina.Volume.over(np.array(self.array), self._core.steps, self._core.origin, self._core.centers,
-                                   self._core.lookup, self._core.unit)
+                                   self._core.lookup, self._core.unit).with_labels_of(self._core)
         volume = Volume._of(core, self._file, self._source)
         volume._conversion = self._conversion
         return volume

@@ -43,8 +43,8 @@ class VolumeKeys(TypedDict, total=False):
     - ``generate``
     - ``type``: Default: "uint8".
     - ``size``: Samples of a file without a header.
-    - ``lookup``: Between samples: linear is trilinear; nearest is constant in each sample's voxel, for labels.
-      Default: "linear".
+    - ``lookup``: Between samples: linear is trilinear; nearest is constant in each sample's voxel. If a file's
+      samples are labels (docs/scene.md), nearest unless given. Default: "linear".
     - ``path``
     - ``array``: By its name; the first unless given.
     - ``level``: Of a pyramid. Default: 0.
@@ -313,6 +313,8 @@ class TransferFunctionKeys(TypedDict, total=False):
     - ``unit_length``: World length that opacity refers to. Default: 1.
     - ``interpolation``: linear: opacity between two points given by opacity, else extinction; extinction: extinction
       everywhere; nearest: the nearest point. Default: "linear".
+    - ``codes``: Values are the codes of labels that do not fit 16 bits (docs/scene.md, "Labels"), in place of the
+      file's numbers. Default: false.
     - ``colormap``: Path of a ParaView colour map (JSON preset), or the name of a shipped one: cividis, cool-warm,
       ct-bone, ct-soft-tissue, greys, inferno, viridis. Points then give no colour.
     - ``colormap_range``: Scalars that the map is stretched to; a shipped one else to the data's range, if it is not
@@ -322,6 +324,7 @@ class TransferFunctionKeys(TypedDict, total=False):
 
     unit_length: float
     interpolation: Literal["linear", "extinction", "nearest"]
+    codes: bool
     colormap: Union[str, os.PathLike[str]]
     colormap_range: Vector
     points: Sequence[TransferFunctionPointKeys]

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "bindings.h"
 #include "lamina/scene.h"
@@ -81,6 +84,15 @@ std::array<std::string, 3> centers_of(const Volume& volume) {
     return words;
 }
 
+// Returns code, number and name of each label.
+std::vector<std::tuple<int, std::string, std::string>> labels_of(const Volume& volume) {
+    std::vector<std::tuple<int, std::string, std::string>> list;
+    if (!volume.labels()) return list;
+    for (const Label& label : volume.labels()->list)
+        list.emplace_back(static_cast<int>(label.code), label.number, label.name);
+    return list;
+}
+
 }  // namespace
 
 void bind_volume(py::module_& module) {
@@ -122,6 +134,13 @@ void bind_volume(py::module_& module) {
                                    return std::string(linear ? "linear" : "nearest");
                                })
         .def_property_readonly("unit", [](const Volume& volume) { return volume.grid().unit; })
+        .def_property_readonly("labels", &labels_of)
+        .def(
+            "with_labels_of",
+            [](const Volume& volume, const Volume& other) {
+                return volume.labelled(other.labels());
+            },
+            py::arg("other"))
         .def_property_readonly("bounds", &bounds_of);
 }
 

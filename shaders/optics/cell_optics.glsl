@@ -19,9 +19,9 @@ struct Interval {
 
 Interval interval_at(int number) {
     vec4 place = interval_place(number);
-    vec4 left = texelFetch(intervals, ivec2(number, 1), 0);
-    vec4 right = texelFetch(intervals, ivec2(number, 2), 0);
-    vec2 ends = texelFetch(intervals, ivec2(number, 3), 0).ba;
+    vec4 left = interval_texel(number, 1);
+    vec4 right = interval_texel(number, 2);
+    vec2 ends = interval_texel(number, 3).ba;
     return Interval(place.x, ends.y, place.y, ends.x, left, right - left);
 }
 

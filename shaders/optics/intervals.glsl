@@ -5,6 +5,15 @@
 uniform sampler2D intervals;
 uniform sampler2D interval_starts;
 
+// Returns a texel of an interval. Many intervals, of labels, continue in the next rows.
+vec4 interval_texel(int interval, int row) {
+#if INTERVALS > 4096
+    return texelFetch(intervals, ivec2(interval & 4095, 4 * (interval >> 12) + row), 0);
+#else
+    return texelFetch(intervals, ivec2(interval, row), 0);
+#endif
+}
+
 // Returns the number of the interval that holds `scalar`: at a step of the transfer function, the
 // interval above the step (lamina/transfer_function.h).
 int find_interval(float scalar) {
@@ -13,14 +22,14 @@ int find_interval(float scalar) {
 #else
     int cell = min(int(scalar * 1024.0), 1023);
     int i = int(texelFetch(interval_starts, ivec2(cell, 0), 0).r);
-    while (i + 1 < INTERVALS && scalar >= texelFetch(intervals, ivec2(i + 1, 0), 0).x) ++i;
+    while (i + 1 < INTERVALS && scalar >= interval_texel(i + 1, 0).x) ++i;
     return i;
 #endif
 }
 
 // Returns row 0: (left end, 1 / width, pre-integration table node at the left end, number of table
 // nodes from there to the right end).
-vec4 interval_place(int interval) { return texelFetch(intervals, ivec2(interval, 0), 0); }
+vec4 interval_place(int interval) { return interval_texel(interval, 0); }
 
 // Returns the position of a scalar in its interval: 0 at the left end, 1 at the right, clamped.
 // `place` comes from interval_place().

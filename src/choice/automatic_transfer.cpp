@@ -11,6 +11,7 @@
 #include <iterator>
 #include <limits>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -205,7 +206,7 @@ std::string padding_text(const Padding& padding) {
         text, 100 * padding.share, several ? "are" : "is");
 }
 
-// Colours of labels in linear light; neighbours differ in hue.
+// Colours of the first labels in linear light; neighbours differ in hue.
 constexpr std::array<glm::dvec3, 8> label_colors{{{.75, .20, .05},
                                                   {.06, .30, .65},
                                                   {.80, .55, .08},
@@ -215,45 +216,91 @@ constexpr std::array<glm::dvec3, 8> label_colors{{{.75, .20, .05},
                                                   {.75, .30, .40},
                                                   {.70, .65, .55}}};
 
+// Returns the colour of the label of this number. Beyond label_colors, hues of OKLab (Ottosson
+// 2020) lie a golden angle apart, so that new ones fall between those before, at three lightnesses.
+glm::dvec3 label_color(std::size_t number) {
+    if (number < label_colors.size()) return label_colors[number];
+    constexpr std::array<double, 3> lightnesses{.64, .80, .55};
+    constexpr double chroma = .16, golden_angle = 2.399963229728653, largest = .9;
+    const double hue = golden_angle * static_cast<double>(number);
+    const double lightness = lightnesses[number % lightnesses.size()];
+    const double a = chroma * std::cos(hue), b = chroma * std::sin(hue);
+    const double l = std::pow(lightness + .3963377774 * a + .2158037573 * b, 3);
+    const double m = std::pow(lightness - .1055613458 * a - .0638541728 * b, 3);
+    const double s = std::pow(lightness - .0894841775 * a - 1.2914855480 * b, 3);
+    return glm::clamp(glm::dvec3(4.0767416621 * l - 3.3077115913 * m + .2309699292 * s,
+                                 -1.2684380046 * l + 2.6097574011 * m - .3413193965 * s,
+                                 -.0041960863 * l - .7034186147 * m + 1.7076147010 * s),
+                      0.0, largest);
+}
+
 // Returns the extinction for a share of all shown labels: rare ones are up to ten times denser.
 double extinction_of(double share) {
     return std::pow(std::max(share, .01), -.5);
 }
 
-// Returns a transfer function for labels (few whole numbers, but at least two): the most frequent
-// one is transparent; each of the others has a colour that reaches halfway to its neighbours.
-AutomaticTransfer label_transfer(const ValueDistribution& values) {
-    std::size_t common = 0;
-    double most = 0;
-    for (std::size_t i = 0; i < values.distinct(); ++i) {
-        const double share = values.share(values.value(i), values.value(i));
-        if (share > most) {
-            most = share;
-            common = i;
-        }
+// Returns the place of the label 0, else of the most frequent value.
+std::size_t background_of(const ValueDistribution& values, const VolumeLabels* labels) {
+    const auto place_of = [&](double value) {
+        for (std::size_t i = 0; i < values.distinct(); ++i)
+            if (values.value(i) == value) return i;
+        return values.distinct();
+    };
+    if (labels != nullptr) {
+        const auto zero = std::ranges::find(labels->list, "0", &Label::number);
+        const bool listed = zero != labels->list.end();
+        const bool has_zero = listed || !labels->renumbered;
+        const std::size_t place = has_zero ? place_of(listed ? zero->code : 0) : values.distinct();
+        if (place < values.distinct()) return place;
     }
+    std::size_t common = 0;
+    const auto share = [&](std::size_t i) {
+        return values.share(values.value(i), values.value(i));
+    };
+    for (std::size_t i = 1; i < values.distinct(); ++i)
+        if (share(i) > share(common)) common = i;
+    return common;
+}
+
+// Returns a transfer function for labels, at least two: the background is transparent; each of the
+// others has the file's colour (`labels`, or null) or one that reaches halfway to its neighbours.
+AutomaticTransfer label_transfer(const ValueDistribution& values, const VolumeLabels* labels) {
+    const std::size_t background = background_of(values, labels);
+    const auto share_of = [&](std::size_t i) {
+        return values.share(values.value(i), values.value(i));
+    };
     std::vector<TransferKnot> points;
     double largest = 0;
     for (std::size_t i = 0; i < values.distinct(); ++i) {
-        const double share = values.share(values.value(i), values.value(i)) / (1 - most);
-        OpticalProperties optics{label_colors[(i + (i > common ? 7 : 0)) % label_colors.size()],
-                                 extinction_of(share)};
-        if (i == common) optics = {};
+        OpticalProperties optics{label_color(i - (i > background ? 1 : 0)),
+                                 extinction_of(share_of(i) / (1 - share_of(background)))};
+        if (i == background) optics = {};
         largest = std::max(largest, optics.extinction);
         points.push_back({values.value(i), optics});
     }
     for (TransferKnot& point : points) point.optics.extinction /= largest;
+    std::string transparent = fmt::format("{:g}", values.value(background));
+    auto point = points.begin();
+    for (std::size_t i = 0; labels != nullptr && i < labels->list.size(); ++i) {
+        const Label& label = labels->list[i];
+        point = std::ranges::lower_bound(point, points.end(), label.code, {}, &TransferKnot::value);
+        if (point == points.end() || point->value != label.code) continue;
+        if (point == points.begin() + static_cast<std::ptrdiff_t>(background))
+            transparent = label.number;
+        else if (label.color)
+            point->optics.color = *label.color;
+    }
     return {TransferFunction::nearest(points),
-            fmt::format("{} whole numbers are taken for labels: {:g}, {:.3g} % of the field, is "
+            fmt::format("{} whole numbers are taken for labels: {}, {:.3g} % of the field, is "
                         "transparent, each of the others has a colour",
-                        values.distinct(), values.value(common), 100 * most)};
+                        values.distinct(), transparent, 100 * share_of(background))};
 }
 
 AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers) {
     const ValueDistribution& values = padding.rest;
     if (values.distinct() < 2) return one_value(values.empty() ? 0 : values.lowest());
     if (whole_numbers && values.distinct() <= most_labels && values.distinct() > 2)
-        return label_transfer(values);
+        return label_transfer(values, nullptr);
     return beyond_common(padding, find_common_values(values, whole_numbers));
 }
 
@@ -261,7 +308,13 @@ AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers) {
 
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
                                            const TransferAdjustments& adjustments,
-                                           double least_padding_share) {
+                                           double least_padding_share, const VolumeLabels* labels) {
+    if (labels != nullptr && values.distinct() > 1 && !adjustments.range) {
+        AutomaticTransfer chosen = label_transfer(values, labels);
+        TransferFunction& palette = chosen.transfer_function;
+        if (adjustments.colormap) palette = recolored(palette, *adjustments.colormap);
+        return chosen;
+    }
     const Padding padding = find_padding(values, whole_numbers, least_padding_share);
     AutomaticTransfer chosen = adjustments.range ? within(values, *adjustments.range)
                                                  : in_own_colors(padding, whole_numbers);

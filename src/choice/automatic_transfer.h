@@ -6,6 +6,7 @@
 
 #include "choice/value_distribution.h"
 #include "lamina/transfer_function.h"
+#include "lamina/volume.h"
 #include "optics/colormap.h"
 #include "volume/min_max_bricks.h"
 
@@ -27,9 +28,11 @@ struct AutomaticTransfer {
 
 // Chooses a transfer function from values alone (docs/first-picture.md): the rarer values are, the
 // denser and brighter; common ones are transparent. `least_padding_share`: see find_padding().
+// `labels`: what the file says of labels, if all values are labels; each then has a colour.
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
                                            const TransferAdjustments& adjustments = {},
-                                           double least_padding_share = least_padding);
+                                           double least_padding_share = least_padding,
+                                           const VolumeLabels* labels = nullptr);
 
 // Returns the function with its points moved in proportion to a range, lo < hi. Throws Error if it
 // has a single point, or if three points would get one value.

@@ -202,9 +202,9 @@ Choices choose(Scene asked, const Field& field, const Adjustments& adjustments) 
     const bool chooses_camera = scene.camera.is_automatic();
     std::string reason;
     if (chooses_function) {
-        AutomaticTransfer chosen =
-            choose_transfer_function(field.distribution(), field.whole_numbers(),
-                                     adjustments.transfer, field.least_padding_share());
+        AutomaticTransfer chosen = choose_transfer_function(
+            field.distribution(), field.whole_numbers(), adjustments.transfer,
+            field.least_padding_share(), field.labels());
         scene.transfer_function = std::move(chosen.transfer_function);
         if (scene.color_space == ImageColorSpace::display && !adjustments.transfer.colormap)
             scene.transfer_function = displayed(*scene.transfer_function);

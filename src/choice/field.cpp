@@ -297,6 +297,12 @@ double VolumeField::spacing() const {
     return smallest;
 }
 
+const VolumeLabels* VolumeField::labels() const {
+    static const VolumeLabels nothing;
+    if (!whole_numbers() || volume_.grid().lookup == VolumeLookup::linear) return nullptr;
+    return volume_.labels() ? volume_.labels().get() : &nothing;
+}
+
 ValueDistribution VolumeField::distribution() const {
     return ValueDistribution(
         weighted(values_ != nullptr ? *values_ : count_values(volume_), volume_.type()));

@@ -28,6 +28,8 @@ class Field {
     // (infinite for a single one), or the mean edge of the tets.
     virtual double spacing() const = 0;
     virtual bool whole_numbers() const = 0;
+    // Returns what the file says of labels, maybe nothing, if all values are labels; else null.
+    virtual const VolumeLabels* labels() const { return nullptr; }
     // Returns the share of the field from which on a value may be padding (find_padding()).
     virtual double least_padding_share() const = 0;
     // Returns the distribution of the finite values by volume. Large data are sampled evenly.
@@ -57,6 +59,7 @@ class VolumeField : public Field {
     ValueRange range() const override { return bricks_.whole; }
     double spacing() const override;
     bool whole_numbers() const override { return volume_.type() != SampleType::float32; }
+    const VolumeLabels* labels() const override;
     double least_padding_share() const override { return least_padding; }
     ValueDistribution distribution() const override;
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,

@@ -46,6 +46,21 @@ gl::Texture upload_table(const KnotTable& table) {
     return texture;
 }
 
+gl::Texture upload_intervals(const ShaderIntervals& intervals) {
+    constexpr int columns = ShaderIntervals::columns, rows = ShaderIntervals::rows;
+    const int groups = (intervals.count + columns - 1) / columns;
+    const int width = std::min(intervals.count, columns);
+    gl::Texture texture = gl::Texture::make_2d(gl::TextureFormat::rgba32f, width, rows * groups);
+    for (int row = 0; row < rows * groups; ++row) {
+        const int first = row / rows * columns, count = std::min(intervals.count - first, width);
+        const int texel = row % rows * intervals.count + first;
+        texture.upload({0, row, 0, count, 1, 1}, std::span<const float>(intervals.texels)
+                                                     .subspan(4 * static_cast<std::size_t>(texel),
+                                                              4 * static_cast<std::size_t>(count)));
+    }
+    return texture;
+}
+
 gl::Texture upload_front_parts(const KnotTable& table) {
     const int size = static_cast<int>(table.nodes.size());
     const int layers = static_cast<int>(table.lengths.size());
@@ -91,10 +106,7 @@ GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
     const ShaderIntervals intervals = make_intervals(
         pieces_between(transfer_function, range.lo, range.hi, false), range, anchors, step_advance);
     interval_count_ = intervals.count;
-    intervals_ =
-        gl::Texture::make_2d(gl::TextureFormat::rgba32f, intervals.count, ShaderIntervals::rows);
-    intervals_.upload({0, 0, 0, intervals.count, ShaderIntervals::rows, 1},
-                      std::span<const float>(intervals.texels));
+    intervals_ = upload_intervals(intervals);
     interval_starts_ =
         gl::Texture::make_2d(gl::TextureFormat::r32f, ShaderIntervals::start_count, 1);
     interval_starts_.upload({0, 0, 0, ShaderIntervals::start_count, 1, 1},

@@ -29,6 +29,8 @@ inline constexpr float beyond_all_scalars = 3e38f;
 struct ShaderIntervals {
     static constexpr int start_count = 1024;
     static constexpr int rows = 4;
+    // Intervals side by side in a texture; more continue in the next four rows (intervals.glsl).
+    static constexpr int columns = 4096;
 
     int count = 0;
     std::vector<float> texels;  // rows * count * 4

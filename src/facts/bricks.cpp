@@ -156,13 +156,15 @@ struct ConstantFinder {
     std::optional<Key> constant_key(std::size_t brick) const {
         if (occupied.distance[brick] > 0) return {};
         const ValueRange range = bricks.range(brick);
-        const auto beside = [&](const TransferKnot& a, const TransferKnot& b) {
-            return a.value == b.value && std::abs(a.value - range.lo) <= margin;
-        };
+        const auto near = [&](const TransferKnot& knot) { return knot.value <= range.lo + margin; };
         const auto knots = transfer_function.knots();
+        const auto first =
+            std::ranges::lower_bound(knots, range.lo - margin, {}, &TransferKnot::value);
+        const auto beside =
+            std::ranges::subrange(first, std::find_if_not(first, knots.end(), near));
         const bool constant =
             range.lo == range.hi
-                ? std::ranges::adjacent_find(knots, beside) == knots.end()
+                ? std::ranges::adjacent_find(beside, {}, &TransferKnot::value) == beside.end()
                 : has_plateaus && transfer_function.constant(range.lo - margin, range.hi + margin);
         if (!constant) return {};
         return key_of(transfer_function.at(range.lo));

@@ -123,7 +123,7 @@ class KnotBuilder {
         for (std::size_t i = 0; i < points_.size(); ++i) {
             if (i > 0) add_between(points_[i - 1], points_[i]);
             add_point(i);
-            if (knots_.size() > most_scene_points) {
+            if (knots_.size() > i + 1 + most_scene_points) {
                 fail(
                     "slopes of opacity take more than {} pieces up to point {}, expected fewer "
                     "points",

@@ -54,10 +54,13 @@ std::vector<TransferKnot> linear_in_extinction(const std::vector<GivenPoint>& po
 
 // Converts points so that opacity is linear between two points that are given by it, and extinction
 // between others. The points must pass TransferFunction::linear() after linear_in_extinction().
-// Throws Error if the result has more than most_scene_points knots.
+// Throws Error if slopes add more than most_scene_points knots.
 std::vector<TransferKnot> linear_in_opacity(const std::vector<GivenPoint>& points,
                                             double unit_length);
 
+// Largest number of points of a colour map, and of knots that slopes of opacity add.
 inline constexpr std::size_t most_scene_points = 4096;
+// Largest number of points that a scene gives: a palette of 65,535 labels has two for each.
+inline constexpr std::size_t most_given_points = std::size_t{1} << 17;
 
 }  // namespace lamina

@@ -64,19 +64,23 @@ bool on_line(const TransferKnot& a, const TransferKnot& between, const TransferK
            near(there.color.b, between.optics.color.b);
 }
 
-// Calls visit(a, b) with the optics at the ends of every piece that shares more than a point with
-// [lo, hi], and visit(k, k) for every knot in it and for the constant optics outside the knots.
-template <typename Visit>
-void for_each_part(std::span<const TransferKnot> knots, double lo, double hi, const Visit& visit) {
-    if (lo < knots.front().value) visit(knots.front().optics, knots.front().optics);
-    for (std::size_t i = 0; i < knots.size(); ++i) {
+// Tells whether test(a, b) is true for the optics at the ends of every piece that shares more than
+// a point with [lo, hi], and test(k, k) for every knot in it and for the constant optics outside
+// the knots.
+template <typename Test>
+bool for_all_parts(std::span<const TransferKnot> knots, double lo, double hi, const Test& test) {
+    const auto at = [&](const TransferKnot& knot) { return test(knot.optics, knot.optics); };
+    if (lo < knots.front().value && !at(knots.front())) return false;
+    const auto inside = std::ranges::lower_bound(knots, lo, {}, &TransferKnot::value);
+    auto i = static_cast<std::size_t>(inside - knots.begin());
+    for (i -= i > 0 ? 1 : 0; i < knots.size() && knots[i].value <= hi; ++i) {
         const TransferKnot& knot = knots[i];
-        if (knot.value >= lo && knot.value <= hi) visit(knot.optics, knot.optics);
-        if (i + 1 < knots.size() && std::max(lo, knot.value) < std::min(hi, knots[i + 1].value)) {
-            visit(knot.optics, knots[i + 1].optics);
-        }
+        if (knot.value >= lo && !at(knot)) return false;
+        if (i + 1 < knots.size() && std::max(lo, knot.value) < std::min(hi, knots[i + 1].value) &&
+            !test(knot.optics, knots[i + 1].optics))
+            return false;
     }
-    if (hi > knots.back().value) visit(knots.back().optics, knots.back().optics);
+    return hi <= knots.back().value || at(knots.back());
 }
 
 // Tells whether key(optics) is constant in [lo, hi], leaving out pieces for which !counts(a, b).
@@ -85,14 +89,13 @@ bool same_everywhere(std::span<const TransferKnot> knots, double lo, double hi, 
                      const Counts& counts) {
     using Value = std::remove_cvref_t<std::invoke_result_t<Key, const OpticalProperties&>>;
     std::optional<Value> seen;
-    bool same = true;
-    for_each_part(knots, lo, hi, [&](const OpticalProperties& a, const OpticalProperties& b) {
-        if (!counts(a, b)) return;
-        const Value &at_a = std::invoke(key, a), &at_b = std::invoke(key, b);
-        if (!seen) seen = at_a;
-        same = same && at_a == *seen && at_b == *seen;
-    });
-    return same;
+    return for_all_parts(knots, lo, hi,
+                         [&](const OpticalProperties& a, const OpticalProperties& b) {
+                             if (!counts(a, b)) return true;
+                             const Value &at_a = std::invoke(key, a), &at_b = std::invoke(key, b);
+                             if (!seen) seen = at_a;
+                             return at_a == *seen && at_b == *seen;
+                         });
 }
 
 constexpr auto always = [](const OpticalProperties&, const OpticalProperties&) { return true; };
@@ -185,6 +188,16 @@ TransferFunction::TransferFunction(std::span<const TransferKnot> knots) {
             knots_.pop_back();
         knots_.push_back(knot);
     }
+    for (std::size_t i = 0; i < knots_.size(); ++i) {
+        if (i % block == 0) largest_.push_back(0);
+        largest_.back() = std::max(largest_.back(), knots_[i].optics.extinction);
+    }
+}
+
+TransferFunction TransferFunction::with_codes() const {
+    TransferFunction result = *this;
+    result.of_codes_ = true;
+    return result;
 }
 
 TransferFunction TransferFunction::linear(const std::vector<TransferKnot>& points) {
@@ -219,20 +232,27 @@ OpticalProperties TransferFunction::at(double value) const {
 }
 
 TransferFunction TransferFunction::attenuated(double factor) const {
+    const auto scaled = [&](double extinction) {
+        return std::min(extinction * factor, std::numeric_limits<double>::max());
+    };
     TransferFunction result = *this;
-    for (TransferKnot& knot : result.knots_) {
-        knot.optics.extinction =
-            std::min(knot.optics.extinction * factor, std::numeric_limits<double>::max());
-    }
+    for (TransferKnot& knot : result.knots_)
+        knot.optics.extinction = scaled(knot.optics.extinction);
+    for (double& largest : result.largest_) largest = scaled(largest);
     return result;
 }
 
 double TransferFunction::max_extinction(double lo, double hi) const {
     double largest = std::max(at(lo).extinction, at(hi).extinction);
     // Every brick of a volume asks this, so the search does not visit all knots.
-    for (auto knot = std::ranges::lower_bound(knots_, lo, {}, &TransferKnot::value);
-         knot != knots_.end() && knot->value <= hi; ++knot) {
-        largest = std::max(largest, knot->optics.extinction);
+    const auto place = [&](auto knot) { return static_cast<std::size_t>(knot - knots_.begin()); };
+    const auto first = std::ranges::lower_bound(knots_, lo, {}, &TransferKnot::value);
+    const std::size_t end =
+        place(std::ranges::upper_bound(first, knots_.end(), hi, {}, &TransferKnot::value));
+    for (std::size_t i = place(first); i < end;) {
+        const bool whole = i % block == 0 && i + block <= end;
+        largest = std::max(largest, whole ? largest_[i / block] : knots_[i].optics.extinction);
+        i += whole ? block : 1;
     }
     return largest;
 }

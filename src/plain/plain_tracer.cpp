@@ -262,9 +262,11 @@ class PlainRay {
         append_crossings(along({0, 0, 0, 1}, 0).slope(), found);
         const auto scalar = [&](double t) { return field.at(t).w; };
         const auto [least, most] = std::ranges::minmax(found, {}, scalar);
-        for (const TransferKnot& knot : scene_.transfer_function->knots())
-            if (scalar(least) < knot.value && knot.value < scalar(most))
-                append_crossings(along({0, 0, 0, 1}, knot.value), found);
+        const double highest = scalar(most);
+        const auto knots = scene_.transfer_function->knots();
+        for (auto knot = std::ranges::upper_bound(knots, scalar(least), {}, &TransferKnot::value);
+             knot != knots.end() && knot->value < highest; ++knot)
+            append_crossings(along({0, 0, 0, 1}, knot->value), found);
         for (const auto& [light, halfway, shone] : lights_)
             for (const glm::dvec3& v : {light, halfway}) append_crossings(along({v, 0}, 0), found);
         std::sort(found.begin(), found.end());

@@ -34,20 +34,12 @@ ContextChoice context_for_files(const Auto<ContextChoice>& choice) {
     return ContextChoice::cpu;
 }
 
-// Returns the lookup of the volume that the scene draws; linear if it draws a mesh.
-VolumeLookup lookup_of(const Scene& scene, SceneData& data) {
-    if (scene.draws_mesh()) return VolumeLookup::linear;
-    if (const VolumeFile* const file = scene.volume_file())
-        return file->selection.lookup.value_or(VolumeLookup::linear);
-    if (const auto* const generated = std::get_if<GeneratorRequest>(&scene.volume))
-        return generated->lookup;
-    return data.volume(scene)->volume.grid().lookup;
-}
-
 // Settles what a field that is constant in each voxel leaves no choice of: it is integrated
 // exactly, and it has no gradient that could be lit. Throws Error if the scene asks for other
 // segments.
 void settle_for_voxels(Scene& scene) {
+    if (VolumeFile* const file = scene.volume_file())
+        file->selection.lookup = VolumeLookup::nearest;
     const Auto<Classification>& asked = scene.slice.classification;
     if (asked.is_given() && asked != Classification::exact) {
         fail(
@@ -128,8 +120,10 @@ Choices Pipeline::chosen() {
         const Adjustments& adjustments = options_.adjustments;
         if (const auto ramp = opaque_ramp(asked_)) warn(*ramp);
         Scene scene = asked_;
-        if (lookup_of(scene, data_) == VolumeLookup::nearest) settle_for_voxels(scene);
-        if (has_open_colormap(scene)) close_colormap(scene, data_.range(scene));
+        if (!scene.draws_mesh() &&
+            data_.volume(scene)->volume.grid().lookup == VolumeLookup::nearest)
+            settle_for_voxels(scene);
+        data_.close_transfer_function(scene);
         if (!leaves_something_open(scene) && !adjustments.transfer_function() &&
             !adjustments.camera())
             return {std::move(scene), {}};
@@ -140,6 +134,8 @@ Choices Pipeline::chosen() {
                                     : data_.field(scene);
         Stage choosing("choose");
         Choices result = choose(std::move(scene), *field, adjustments);
+        result.scene.transfer_function =
+            data_.marked(result.scene, *result.scene.transfer_function);
         stages_ms_["choose"] = choosing.end();
         return result;
     });
@@ -220,9 +216,10 @@ void Pipeline::set_transfer_function(const TransferFunction& transfer_function) 
     asked_.given_transfer.reset();
     Choices next{scene_, reasons_};
     next.scene.transfer_function = transfer_function;
+    data_.close_transfer_function(next.scene);
     take(std::move(next));
     choice_warnings_.clear();
-    if (frames_) in_context([&] { frames_->set_transfer_function(transfer_function); });
+    if (frames_) in_context([&] { frames_->set_transfer_function(*scene_.transfer_function); });
 }
 
 void Pipeline::set_transfer_function_of(const Scene& like) {
@@ -231,7 +228,10 @@ void Pipeline::set_transfer_function_of(const Scene& like) {
     next.given_transfer = like.given_transfer;
     if (chooses_transfer_function(like)) return set_scene(std::move(next));
     Scene closed = like;
-    if (has_open_colormap(closed)) close_colormap(closed, data_.range(scene()));
+    if (has_open_colormap(closed)) {
+        close_colormap(closed, data_.range(scene()));
+        closed.transfer_function = data_.marked(scene(), *closed.transfer_function);
+    }
     set_transfer_function(*closed.transfer_function);
     if (const auto ramp = opaque_ramp(closed)) {
         warn(*ramp);

@@ -3,6 +3,7 @@
 
 #include "base/profile.h"
 #include "mesh/tet_mesh.h"
+#include "scene/given_transfer.h"
 
 namespace lamina {
 namespace {
@@ -96,6 +97,22 @@ const ValueRange& SceneData::range(const Scene& scene) {
         range_ = measure_range(mesh(scene)->scalar.values).range;
     }
     return *range_;
+}
+
+void SceneData::close_transfer_function(Scene& scene) {
+    const bool open = has_open_colormap(scene);
+    if (open) close_colormap(scene, range(scene));
+    if (scene.transfer_function.is_automatic() || scene.draws_mesh()) return;
+    const TransferFunction& given = *scene.transfer_function;
+    // The range of the data is one of codes.
+    scene.transfer_function =
+        open ? marked(scene, given) : over_codes(given, volume(scene)->volume);
+}
+
+TransferFunction SceneData::marked(const Scene& scene, const TransferFunction& drawn) {
+    if (scene.draws_mesh()) return drawn;
+    const auto& labels = volume(scene)->volume.labels();
+    return labels && labels->renumbered ? drawn.with_codes() : drawn;
 }
 
 void SceneData::forget_mesh() {

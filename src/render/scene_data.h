@@ -48,6 +48,12 @@ class SceneData {
     // if there is one, so that pictures of the volume and of its mesh have the same colours.
     const ValueRange& range(const Scene& scene);
 
+    // Makes a given transfer function one of the data that the scene draws: stretches an open
+    // colour map over them, and takes the codes of labels for their numbers (over_codes()).
+    void close_transfer_function(Scene& scene);
+    // Says so if values are codes of labels in place of the file's numbers (VolumeLabels).
+    TransferFunction marked(const Scene& scene, const TransferFunction& drawn);
+
     // Keeps the volume that a mesh is made from, so that more meshes can be made. Otherwise the
     // volume is dropped after the first.
     void keep_volume() { keeps_volume_ = true; }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "base/enum_words.h"
 #include "optics/colormap.h"
@@ -79,7 +80,18 @@ std::filesystem::path GivenTransfer::colormap_file() const {
 }
 
 TransferFunction transfer_function_of(const GivenTransfer& given, const ValueRange& data) {
-    return given.map ? colored_by_map(given, data) : colored_by_points(given);
+    const TransferFunction made =
+        given.map ? colored_by_map(given, data) : colored_by_points(given);
+    return given.codes ? made.with_codes() : made;
+}
+
+TransferFunction over_codes(const TransferFunction& function, const Volume& volume) {
+    const auto& labels = volume.labels();
+    if (function.of_codes() || !labels || !labels->renumbered) return function;
+    std::vector<TransferKnot> points;
+    for (const Label& label : labels->list)
+        points.push_back({label.code, function.at(std::strtod(label.number.c_str(), nullptr))});
+    return TransferFunction::nearest(points).with_codes();
 }
 
 bool has_open_colormap(const Scene& scene) {

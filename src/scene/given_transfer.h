@@ -11,6 +11,7 @@
 #include "lamina/color.h"
 #include "lamina/scene.h"
 #include "lamina/transfer_function.h"
+#include "lamina/volume.h"
 #include "optics/opacity.h"
 #include "volume/min_max_bricks.h"
 
@@ -29,6 +30,7 @@ struct GivenTransfer {
     std::string colormap;             // name of a shipped map, or path of a file; empty: none
     std::optional<Colormap> map;      // the colour map as read, at its own values
     Auto<ValueRange> colormap_range;  // range that the map is stretched over
+    bool codes = false;               // TransferFunction::of_codes()
     std::string place;                // file and key, for messages: "scene.json: transfer_function"
 
     // Tells whether the map is stretched over the range of the data.
@@ -47,6 +49,10 @@ class GivenTransferError : public Error {
 
 // Largest |scalar| of a map's range: differences stay finite (lamina/transfer_function.h).
 inline constexpr double largest_map_value = 1e300;
+
+// Returns a function of the numbers of a volume's labels as one of their codes (VolumeLabels): each
+// label keeps its optics. Returns other functions, and those of other volumes, as they are.
+TransferFunction over_codes(const TransferFunction& function, const Volume& volume);
 
 // Makes the transfer function. `data`: the range that an open map is stretched over; a single value
 // gets the middle of the map. Throws GivenTransferError if points and map make no function.

@@ -58,7 +58,8 @@ Form<VolumeLookup> lookup_form() {
 }
 
 constexpr const char* lookup_text =
-    "Between samples: linear is trilinear; nearest is constant in each sample's voxel, for labels.";
+    "Between samples: linear is trilinear; nearest is constant in each sample's voxel. If a file's "
+    "samples are labels (docs/scene.md), nearest unless given.";
 
 void generator_keys(KeyTable<GeneratorRequest>& keys) {
     // The types that generated_grid() can make.
@@ -199,8 +200,7 @@ void volume_selection_keys(KeyTable<VolumeRequest>& keys) {
     keys.key("spacing", &VolumeRequest::spacing, optional_form(spacing), "In place of the file's.");
     keys.key("origin", &VolumeRequest::origin, optional_form(vector_form()),
              "The first sample, in place of the file's.");
-    keys.key("lookup", &VolumeRequest::lookup, optional_form(lookup_form()), lookup_text)
-        .otherwise("linear");
+    keys.key("lookup", &VolumeRequest::lookup, optional_form(lookup_form()), lookup_text);
     add_raw_keys(keys);
 }
 

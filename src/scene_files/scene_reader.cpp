@@ -59,7 +59,9 @@ nlohmann::ordered_json transfer_function_json(const TransferFunction& transfer_f
                           {"extinction", knot.optics.extinction}});
         if (knot.smooth) points.back()["smooth"] = true;
     }
-    return {{"points", points}};
+    nlohmann::ordered_json json{{"points", points}};
+    if (transfer_function.of_codes()) json["codes"] = true;
+    return json;
 }
 
 nlohmann::ordered_json camera_json(const Camera& camera) {

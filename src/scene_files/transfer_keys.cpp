@@ -80,9 +80,9 @@ const KeyTable<GivenPoint>& point_keys(bool colored) {
 std::vector<GivenPoint> read_points(JsonReader& reader, bool colored) {
     std::vector<GivenPoint> points;
     std::vector<JsonReader> elements = reader.objects("points");
-    if (elements.size() > most_scene_points) {
+    if (elements.size() > most_given_points) {
         reader.fail_at("points", fmt::format("found {} points, expected at most {}",
-                                             elements.size(), most_scene_points));
+                                             elements.size(), most_given_points));
     }
     for (JsonReader& element : elements) {
         GivenPoint point;
@@ -189,7 +189,7 @@ Key<GivenTransfer> points_key() {
     const KeyJson schema{{"description", "In order of value; two points at one value make a step."},
                          {"type", "array"},
                          {"minItems", 1},
-                         {"maxItems", most_scene_points},
+                         {"maxItems", most_given_points},
                          {"items", point_keys(true).schema()}};
     const auto write = [](const GivenTransfer& given, KeyJson& json) {
         for (const GivenPoint& point : given.points)
@@ -232,6 +232,12 @@ void transfer_keys(KeyTable<GivenTransfer>& keys) {
     keys.key("interpolation", &GivenTransfer::interpolation, words_form<PointInterpolation>(),
              "linear: opacity between two points given by opacity, else extinction; "
              "extinction: extinction everywhere; nearest: the nearest point.");
+    keys.key("codes", &GivenTransfer::codes, flag_form(),
+             "Values are the codes of labels that do not fit 16 bits (docs/scene.md, \"Labels\"), "
+             "in place of the file's numbers.");
+    keys.last().write = [](const GivenTransfer& given, KeyJson& json) {
+        if (given.codes) json["codes"] = true;
+    };
     keys.add(colormap_key()).add(range_key()).add(points_key());
 }
 

@@ -320,9 +320,9 @@ SceneData DataStore::data_of(const Scene& scene) {
 }
 
 Scene DataStore::closed(Scene scene) {
-    if (!has_open_colormap(scene)) return scene;
+    if (scene.draws_mesh() && !has_open_colormap(scene)) return scene;
     SceneData data = scene.has_volume() ? SceneData(volume(scene).data) : mesh(scene).data.data();
-    close_colormap(scene, data.range(scene));
+    data.close_transfer_function(scene);
     return scene;
 }
 

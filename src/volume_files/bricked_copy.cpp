@@ -255,6 +255,27 @@ Grid grid_in(const Json& json, const ZarrArray& array) {
     return grid;
 }
 
+// A copy keeps what its file says of labels.
+Json json_of(const std::shared_ptr<const VolumeLabels>& labels) {
+    if (!labels) return nullptr;
+    Json list = Json::array();
+    for (const Label& label : labels->list) {
+        list.push_back({label.code, label.number, label.name, nullptr});
+        if (label.color) list.back()[3] = json_of(*label.color);
+    }
+    return {{"renumbered", labels->renumbered}, {"list", list}};
+}
+
+std::shared_ptr<const VolumeLabels> labels_in(const Json& json) {
+    if (json.is_null()) return nullptr;
+    VolumeLabels labels{json.at("renumbered"), {}};
+    for (const Json& entry : json.at("list")) {
+        labels.list.push_back({entry.at(0), entry.at(1), entry.at(2)});
+        if (!entry.at(3).is_null()) labels.list.back().color = vector_in(entry.at(3));
+    }
+    return std::make_shared<const VolumeLabels>(std::move(labels));
+}
+
 // A copy keeps what its file lists, which is not opened when the copy is.
 Json json_of(const VolumeContents& contents) {
     return {{"arrays", contents.arrays},
@@ -330,14 +351,18 @@ BrickedCopy write_bricked_copy(const Path& file, const VolumeRequest& request) {
     VolumeRequest stored = request;
     stored.spacing.reset();
     stored.origin.reset();
+    stored.lookup.reset();
     const std::string of = copied(file, stored);
     VolumeContents contents;
     const Volume volume = open_volume(
         file, stored, {.residence = VolumeUse::Residence::in_order, .contents = &contents});
     ReplacedFolder folder(bricked_copy_of(file));
-    const Json attributes{
-        {attribute,
-         {{"of", of}, {"grid", json_of(volume.grid())}, {"contents", json_of(contents)}}}};
+    const Json attributes{{attribute,
+                           {{"of", of},
+                            {"grid", json_of(volume.grid())},
+                            {"contents", json_of(contents)},
+                            {"are_labels", volume.grid().lookup == VolumeLookup::nearest},
+                            {"labels", json_of(volume.labels())}}}};
     ZarrWriter writer(folder.temporary(), volume.grid().size,
                       chunk_edge(volume.grid(), volume.type()),
                       *value_type_of(name_of(volume.type())), attributes);
@@ -372,13 +397,19 @@ std::optional<Volume> open_bricked_copy(const Path& file, const VolumeRequest& r
         check_grid(folder.string(), grid, {"step", "origin"});
         if (!stays_in_files(grid, *type, use)) return {};
         if (about.at("of") != copied(file, request)) return is_not_used("of other samples");
-        if (!about.contains("contents")) return is_not_used("of an older version");
+        if (!about.contains("labels")) return is_not_used("of an older version");
+        const auto labels = labels_in(about["labels"]);
+        // A copy of codes has not the numbers between which a user wants to interpolate.
+        if (labels && labels->renumbered && use.lookup == VolumeLookup::linear) return {};
+        if (about.at("are_labels").get<bool>())
+            take_for_labels(file.string(), "the copied file", use, grid);
         ZarrChunks chunks(array, {{0, 1, 2}, {0, 0, 0}});
         auto hashes = read_chunk_hashes(folder, chunks.count());
         if (!hashes) return is_not_used("damaged");
         chunks.set_expected_hashes(std::move(*hashes));
         if (use.contents != nullptr) *use.contents = contents_in(about["contents"]);
-        return stored_volume(grid, *type, std::make_unique<ZarrSource>(std::move(chunks)));
+        return stored_volume(grid, *type, std::make_unique<ZarrSource>(std::move(chunks)))
+            .labelled(labels);
     } catch (const Json::exception&) {
     } catch (const Error&) {
     }

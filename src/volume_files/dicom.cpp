@@ -473,11 +473,11 @@ Volume open_dicom(const std::filesystem::path& path, const VolumeRequest& reques
     const DicomSeries series = read_dicom_series(path, request, use.contents);
     const auto compressed = [](const DicomSlice& slice) { return slice.image->compressed; };
     if (std::ranges::none_of(series.slices, compressed))
-        return drawn_volume(series.grid, SliceReader(series, nullptr).read());
+        return drawn_volume(series.grid, SliceReader(series, nullptr).read(), use.lookup);
     const ReadSamples found = read_isolated(series.name, "GDCM", [&](IsolatedLine& line) {
         return ReadSamples{series.grid, SliceReader(series, &line).read()};
     });
-    return drawn_volume(series.grid, found.samples);
+    return drawn_volume(series.grid, found.samples, use.lookup);
 }
 
 std::vector<std::filesystem::path> files_of_dicom(const std::filesystem::path& path) {

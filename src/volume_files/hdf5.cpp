@@ -287,7 +287,8 @@ Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request
             std::make_unique<FileSource>(raw_data(named.file, head), head.place.grid.size));
     }
     return drawn_volume(head.place.grid,
-                        {path.string(), head.type, process->read_all(), head.scale, head.offset});
+                        {path.string(), head.type, process->read_all(), head.scale, head.offset},
+                        use.lookup);
 }
 
 std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& path) {

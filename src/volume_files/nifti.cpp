@@ -277,6 +277,8 @@ constexpr NiftiType types[] = {
     {256, ValueType::int8, 1},   {512, ValueType::uint16, 1},  {768, ValueType::uint32, 1},
     {1024, ValueType::int64, 1}, {1280, ValueType::uint64, 1}, {2304, ValueType::uint8, 4}};
 
+constexpr std::int64_t label_intent = 1002;  // nifti1.h, NIFTI_INTENT_LABEL
+
 // Returns the header of a pair if the path is its other file, "a.img".
 Path header_path(const Path& path) {
     std::string name = path.filename().string();
@@ -407,7 +409,9 @@ Volume open_nifti(const Path& path, const VolumeRequest& request, const VolumeUs
     const NiftiHeader header = expected_header(path);
     check_dimensions(header);
     const NiftiType type = type_of(header);
-    const Grid grid = nifti_grid(header);
+    Grid grid = nifti_grid(header);
+    if (header.intent == label_intent)
+        take_for_labels(header.path.string(), "intent_code 1002", use, grid);
     expect_allowed(header.data_path);
     if (!std::filesystem::exists(header.data_path)) {
         fail("{}: data file of {}: no such file", header.data_path.string(), header.path.string());

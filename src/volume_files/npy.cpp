@@ -94,7 +94,7 @@ NpyArray npy_array(const std::filesystem::path& path, const std::string& name,
 }
 
 // Makes the volume of an array's samples as they were read, in native byte order.
-Volume npy_volume(const NpyArray& array, StoredSamples samples) {
+Volume npy_volume(const NpyArray& array, StoredSamples samples, const VolumeUse& use) {
     const Grid grid = plain_grid(array.size);
     if (array.is_half) samples = widened_halves(samples, grid.sample_count());
     if (array.is_fortran) {
@@ -102,7 +102,7 @@ Volume npy_volume(const NpyArray& array, StoredSamples samples) {
             return turned<decltype(zero)>(samples.bytes.get(), array.size);
         });
     }
-    return drawn_volume(grid, samples);
+    return drawn_volume(grid, samples, use.lookup);
 }
 
 // Opens an array that lies in files as it is.
@@ -113,7 +113,7 @@ Volume open_npy_array(const NpyArray& array, const VolumeUse& use) {
     expect_room(
         name, stored_bytes(name, array.data.axes, bytes_of(array.data.type)), use,
         array.is_half ? "its samples are floats of 16 bits" : "its first axis is the fastest");
-    return npy_volume(array, read_stored(array.data));
+    return npy_volume(array, read_stored(array.data), use);
 }
 
 // An archive (.npz) with the headers of its arrays.
@@ -151,7 +151,7 @@ class Npz {
         expect_room(
             name, bytes, use,
             member->is_stored() ? "its samples are not drawn as they are" : "it is compressed");
-        return npy_volume(array, read(*member, array, begin));
+        return npy_volume(array, read(*member, array, begin), use);
     }
 
   private:

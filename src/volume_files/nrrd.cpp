@@ -17,6 +17,8 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
+#include "image/coded_image.h"
+#include "volume/labels.h"
 #include "volume_files/numbered_files.h"
 
 namespace lamina {
@@ -474,6 +476,8 @@ struct NrrdHeader {
     bool is_colour = false;
     double first_time = 0, time_step = NAN;  // of the axis of times; NaN: not known
     std::string time_unit;
+    bool is_segmentation = false;
+    std::vector<Label> labels;  // of a segmentation
 };
 
 // Completes what open_stored() has listed.
@@ -487,26 +491,47 @@ void fill_nrrd_contents(const NrrdHeader& header, VolumeContents& contents) {
     }
 }
 
-// Says that a file is a segmentation of 3D Slicer, and what its labels mean
-// (https://slicer.readthedocs.io, "Segmentations", "Segmentation file format").
-void say_segments(const std::string& file, const std::map<std::string, std::string>& keys) {
+// Returns "r g b", display values from 0 to 1, in linear light; nothing if it is none.
+std::optional<glm::dvec3> segment_color(const std::string& text) {
+    glm::dvec3 color;
+    std::istringstream words(text);
+    for (int channel = 0; channel < 3; ++channel) {
+        double stored = -1;
+        if (!(words >> stored) || !(stored >= 0 && stored <= 1)) return {};
+        color[channel] = linear_from_srgb(stored);
+    }
+    return color;
+}
+
+// Returns the labels of a segmentation of 3D Slicer in the layer (channel) that is read, and says
+// what they mean (https://slicer.readthedocs.io, "Segmentations", "Segmentation file format").
+std::vector<Label> segments_of(const std::string& file,
+                               const std::map<std::string, std::string>& keys,
+                               const VolumeRequest& request) {
     constexpr int most_named = 32;
     std::string names;
+    std::vector<Label> labels;
     int count = 0;
-    const auto value = [&](const char* key) {
+    const auto text = [&](const char* key) {
         const auto found = keys.find(fmt::format("Segment{}_{}", count, key));
-        return found == keys.end() ? std::string("?") : one_line(found->second).substr(0, 40);
+        return found == keys.end() ? std::string("?") : one_line(found->second);
     };
+    const auto value = [&](const char* key) { return text(key).substr(0, 40); };
     for (; keys.contains(fmt::format("Segment{}_ID", count)); ++count) {
+        const std::string layer = value("Layer") == "?" ? "0" : value("Layer");
+        if (const auto number = whole_number(value("LabelValue"));
+            number && layer == std::to_string(request.channel.value_or(0)))
+            labels.push_back(
+                {0, std::to_string(*number), text("Name"), segment_color(text("Color"))});
         if (count >= most_named) continue;
         names += fmt::format("{}{} is \"{}\"", count == 0 ? "" : ", ", value("LabelValue"),
                              value("Name"));
-        if (value("Layer") != "0" && value("Layer") != "?")
-            names += fmt::format(" (channel {})", value("Layer"));
+        if (layer != "0") names += fmt::format(" (channel {})", layer);
     }
-    if (count == 0) return;
+    if (count == 0) return labels;
     warn(fmt::format("{}: a segmentation of 3D Slicer, whose samples are labels: {}{}", file, names,
                      count > most_named ? ", ..." : ""));
+    return labels;
 }
 
 NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeRequest& request) {
@@ -551,7 +576,8 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeReque
         header.time_step = known_spacing_of(axis);
         header.time_unit = axis.units == nullptr ? "" : unit_word(axis.units);
     }
-    say_segments(name, text.segment_keys);
+    header.labels = segments_of(name, text.segment_keys, request);
+    header.is_segmentation = text.segment_keys.contains("Segment0_ID");
     if (!std::isnan(nrrd->oldMin) || !std::isnan(nrrd->oldMax)) {
         warn(
             fmt::format("{}: old min, old max: found {} and {}, the range before the samples were "
@@ -571,8 +597,11 @@ bool is_nrrd(const std::filesystem::path& path) {
 
 Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use) {
-    const NrrdHeader header = read_nrrd_header(path, request);
-    const Volume volume = open_stored(header.grid, header.data, use);
+    NrrdHeader header = read_nrrd_header(path, request);
+    if (header.is_segmentation)
+        take_for_labels(path.string(), "the list of segments", use, header.grid);
+    Volume volume = open_stored(header.grid, header.data, use);
+    if (!header.labels.empty()) volume = with_descriptions(volume, std::move(header.labels));
     if (use.contents != nullptr) fill_nrrd_contents(header, *use.contents);
     return volume;
 }

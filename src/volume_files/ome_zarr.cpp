@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/client.h"
+#include "image/coded_image.h"
 #include "volume_files/zarr_image.h"
 
 namespace lamina {
@@ -38,10 +39,35 @@ class OmeZarrReader {
         const Json* const channels = omero == nullptr ? nullptr : member_of(*omero, "channels");
         if (channels != nullptr && channels->is_array())
             for (const Json& one : *channels) image.channels.push_back(text_member(one, "label"));
+        const Json* const about_labels = member_of(ome_, "image-label");
+        image.is_labels = about_labels != nullptr || folder_.parent_path().filename() == "labels";
+        if (about_labels != nullptr) image.labels = labels_in(*about_labels);
         return image;
     }
 
   private:
+    // Reads the colours of labels, sRGB of 8 bits.
+    static std::vector<Label> labels_in(const Json& about) {
+        std::vector<Label> labels;
+        const Json* const colors = member_of(about, "colors");
+        if (colors == nullptr || !colors->is_array()) return labels;
+        for (const Json& entry : *colors) {
+            const Json *const number = member_of(entry, "label-value"), *const rgba = member_of(
+                                                                            entry, "rgba");
+            if (number == nullptr || !number->is_number_integer() || rgba == nullptr) continue;
+            Label& label = labels.emplace_back(Label{0, number->dump()});
+            glm::dvec3 color;
+            bool good = rgba->is_array() && rgba->size() >= 3;
+            for (int channel = 0; good && channel < 3; ++channel) {
+                const Json& stored = (*rgba)[static_cast<std::size_t>(channel)];
+                good = stored.is_number() && stored >= 0 && stored <= 255;
+                if (good) color[channel] = linear_from_srgb(stored.get<double>() / 255);
+            }
+            if (good) label.color = color;
+        }
+        return labels;
+    }
+
     Path folder_of(const Json& dataset) const {
         const Json* const path = member_of(dataset, "path");
         if (path == nullptr || !path->is_string())

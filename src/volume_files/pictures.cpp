@@ -338,7 +338,8 @@ Volume open_pictures(const Path& path, const VolumeRequest& request, const Volum
             to += each;
         }
     });
-    return drawn_volume(plain_grid({kind.width, kind.height, std::ssize(files)}), samples);
+    return drawn_volume(plain_grid({kind.width, kind.height, std::ssize(files)}), samples,
+                        use.lookup);
 }
 
 std::vector<Path> files_of_pictures(const Path& path) {

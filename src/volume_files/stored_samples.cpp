@@ -8,7 +8,9 @@
 #include <cstdlib>
 #include <limits>
 #include <mutex>
+#include <set>
 #include <type_traits>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "base/enum_words.h"
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "volume/labels.h"
 #include "volume/sample_source.h"
 
 namespace lamina {
@@ -64,7 +67,7 @@ bool is_within(T value, int least, int most) {
     if constexpr (std::is_integral_v<T>)
         return std::cmp_greater_equal(value, least) && std::cmp_less_equal(value, most);
     else
-        return value >= least && value <= most;
+        return value >= static_cast<T>(least) && value <= static_cast<T>(most);
 }
 
 // Returns the first of uint8, int16 and uint16 that holds lo to hi; float32 if none does.
@@ -124,8 +127,11 @@ Rounded round_samples(const From* from, std::int64_t count, float* to) {
 void warn_of(const Rounded& rounded, const StoredSamples& samples, std::int64_t count) {
     const char* const type = name_of(samples.type);
     if (rounded.inexact > 0) {
-        warn(fmt::format("{}: {} of {} {} samples are rounded to float, by up to {:.3g}",
-                         samples.file, rounded.inexact, count, type, rounded.largest_error));
+        const char* const hint = is_integer(samples.type)
+                                     ? ": \"lookup\": \"nearest\" in the volume keeps labels apart"
+                                     : "";
+        warn(fmt::format("{}: {} of {} {} samples are rounded to float, by up to {:.3g}{}",
+                         samples.file, rounded.inexact, count, type, rounded.largest_error, hint));
     }
     if (rounded.infinite > 0) {
         warn(fmt::format("{}: {} of {} {} samples are beyond float, and infinite", samples.file,
@@ -148,8 +154,78 @@ std::shared_ptr<const void> filled(SampleType type, std::int64_t count, const Ma
     return memory;
 }
 
+// Tells if samples are labels: by what is asked for or what the file says, else by measure.
+bool are_labels(const Grid& grid, const StoredSamples& samples,
+                const std::optional<VolumeLookup>& lookup) {
+    if (lookup) return *lookup == VolumeLookup::nearest;
+    if (grid.lookup == VolumeLookup::nearest) return true;
+    const auto share = share_if_labels(grid.size, samples.type, samples.bytes.get());
+    if (share) say_measured_labels(samples.file, *share);
+    return share.has_value();
+}
+
+// Returns the values of labels in increasing order; nothing if they are too many or not all whole.
 template <typename From>
-Volume narrowed(const Grid& grid, const StoredSamples& samples) {
+std::optional<std::vector<From>> label_values(const From* from, std::int64_t count) {
+    std::set<From> all;
+    bool good = true;
+    std::mutex merging;
+    for_parts(count, [&](std::int64_t begin, std::int64_t end) {
+        std::unordered_set<From> part;
+        bool whole = true;
+        for (std::int64_t i = begin; i < end && part.size() <= most_label_codes; ++i) {
+            if (i > begin && from[i] == from[i - 1]) continue;
+            part.insert(from[i]);
+            whole &= is_whole_label(from[i]);
+        }
+        const std::lock_guard lock(merging);
+        if (good && whole) all.insert(part.begin(), part.end());
+        good = good && whole && all.size() <= most_label_codes;
+    });
+    if (!good) return {};
+    return std::vector<From>(all.begin(), all.end());
+}
+
+template <typename From>
+std::shared_ptr<const VolumeLabels> table_of_labels(const std::vector<From>& values) {
+    VolumeLabels labels{.renumbered = true, .list = {}};
+    using Whole = std::conditional_t<std::is_integral_v<From>, From, std::int64_t>;
+    for (const From value : values) {
+        labels.list.push_back(
+            {static_cast<double>(labels.list.size()), std::to_string(static_cast<Whole>(value))});
+    }
+    return std::make_shared<const VolumeLabels>(std::move(labels));
+}
+
+// Returns the volume of labels, whose samples are the file's numbers if 16 bits hold them, else
+// their places in increasing order. Returns nothing if they are too many or not whole.
+template <typename From>
+std::optional<Volume> labelled(Grid grid, const StoredSamples& samples) {
+    const auto* const from = static_cast<const From*>(samples.bytes.get());
+    const std::int64_t count = grid.sample_count();
+    const auto values = label_values(from, count);
+    if (!values) return {};
+    grid.lookup = VolumeLookup::nearest;
+    const SampleType type = type_for(values->front(), values->back());
+    if (type != SampleType::float32)
+        return Volume(grid, type, filled(type, count, [&](auto i) { return from[i]; }));
+    const auto labels = table_of_labels(*values);
+    warn(
+        fmt::format("{}: its {} labels, from {} to {}, are numbered 0 to {} in increasing order: "
+                    "lamina info lists them, and a given transfer function means those of the "
+                    "file",
+                    samples.file, values->size(), labels->list.front().number,
+                    labels->list.back().number, values->size() - 1));
+    const SampleType codes = values->size() <= 256 ? SampleType::uint8 : SampleType::uint16;
+    const auto code = [&](auto i) {
+        return std::ranges::lower_bound(*values, from[i]) - values->begin();
+    };
+    return Volume(grid, codes, filled(codes, count, code)).labelled(labels);
+}
+
+template <typename From>
+Volume narrowed(const Grid& grid, const StoredSamples& samples,
+                const std::optional<VolumeLookup>& lookup) {
     const auto* const from = static_cast<const From*>(samples.bytes.get());
     const std::int64_t count = grid.sample_count();
     if constexpr (std::is_integral_v<From>) {
@@ -159,6 +235,13 @@ Volume narrowed(const Grid& grid, const StoredSamples& samples) {
         if (type != SampleType::float32)
             return Volume(grid, type, filled(type, count, [&](auto i) { return from[i]; }));
     }
+    if (are_labels(grid, samples, lookup)) {
+        if (auto volume = labelled<From>(grid, samples)) return *volume;
+        if (std::is_integral_v<From>)
+            warn(fmt::format("{}: more than {} labels, which are drawn as numbers of type float",
+                             samples.file, most_label_codes));
+    }
+    if (std::is_same_v<From, float>) return Volume(grid, SampleType::float32, samples.bytes);
     const std::shared_ptr<void> memory =
         filled_memory(static_cast<std::size_t>(count) * sizeof(float));
     warn_of(round_samples(from, count, static_cast<float*>(memory.get())), samples, count);
@@ -239,13 +322,21 @@ std::optional<SampleType> drawn_type(ValueType type) {
     return value_of_word<SampleType>(name_of(type));
 }
 
-Volume drawn_volume(const Grid& grid, const StoredSamples& samples) {
+void say_measured_labels(const std::string& file, double share) {
+    warn(
+        fmt::format("{}: its samples are taken for labels, as {:.3g} % of them equal their six "
+                    "neighbours: \"lookup\": \"linear\" in the volume interpolates between them",
+                    file, 100 * share));
+}
+
+Volume drawn_volume(const Grid& grid, const StoredSamples& samples,
+                    const std::optional<VolumeLookup>& lookup) {
     const bool plain = samples.scale == 1 && samples.offset == 0;
-    if (const auto type = drawn_type(samples.type); plain && type)
-        return Volume(grid, *type, samples.bytes);
+    const auto type = drawn_type(samples.type);
+    if (plain && type && *type != SampleType::float32) return Volume(grid, *type, samples.bytes);
     return with_type(samples.type, [&](auto zero) {
         using From = decltype(zero);
-        return plain ? narrowed<From>(grid, samples) : scaled<From>(grid, samples);
+        return plain ? narrowed<From>(grid, samples, lookup) : scaled<From>(grid, samples);
     });
 }
 

@@ -40,6 +40,13 @@ std::optional<SampleType> drawn_type(ValueType type);
 // become int16. Other integers, and integers scaled by integers, become the first of uint8, int16,
 // uint16 and float that holds all of them; all others become float. Values that float does not hold
 // are rounded, or become infinite; one warning counts those of unscaled samples.
-Volume drawn_volume(const Grid& grid, const StoredSamples& samples);
+// Whole numbers that become or are floats may be labels: if `lookup` or, without it, the grid or
+// share_if_labels() says so, they become the first of uint8, int16 and uint16 that holds all of
+// them, else codes (VolumeLabels), and a warning says so.
+Volume drawn_volume(const Grid& grid, const StoredSamples& samples,
+                    const std::optional<VolumeLookup>& lookup);
+
+// Warns that samples are taken for labels, because this share of them equals its neighbours.
+void say_measured_labels(const std::string& file, double share);
 
 }  // namespace lamina

@@ -82,7 +82,8 @@ class TiffStack {
         }
         const Grid there = grid();
         return drawn_volume(
-            there, page_.is_half() ? widened_halves(samples, there.sample_count()) : samples);
+            there, page_.is_half() ? widened_halves(samples, there.sample_count()) : samples,
+            use.lookup);
     }
 
   private:

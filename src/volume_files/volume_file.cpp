@@ -10,6 +10,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
+#include "volume/labels.h"
 #include "volume_files/bricked_copy.h"
 #include "volume_files/folder_contents.h"
 #include "volume_files/foreign_files.h"
@@ -206,11 +207,23 @@ void expect_known_keys(const Path& path, const VolumeFormat& format, const Volum
     expect(has_times, request.time.has_value(), "time");
 }
 
-// Replaces spacing and origin of the file by those of the request, if it has any, and takes its
+// Tells if samples are labels that neither the request nor the file says to be or not to be.
+// Samples that are read once, in order, cannot be measured.
+bool are_measured_labels(const Path& path, const Volume& volume, const VolumeUse& use) {
+    if (use.lookup || volume.grid().lookup == VolumeLookup::nearest) return false;
+    if (!volume.in_memory() && use.residence == VolumeUse::Residence::in_order) return false;
+    const auto share = share_if_labels(volume);
+    if (share) say_measured_labels(path.string(), *share);
+    return share.has_value();
+}
+
+// Replaces spacing and origin of the file by those of the request, if it has any, and settles the
 // lookup.
-Volume placed(const Path& path, const Volume& volume, const VolumeRequest& request) {
+Volume placed(const Path& path, const Volume& volume, const VolumeRequest& request,
+              const VolumeUse& use) {
     Grid grid = volume.grid();
-    grid.lookup = request.lookup.value_or(VolumeLookup::linear);
+    if (use.lookup) grid.lookup = *use.lookup;
+    if (are_measured_labels(path, volume, use)) grid.lookup = VolumeLookup::nearest;
     if (!request.spacing && !request.origin) return volume.on(grid);
     for (int axis = 0; axis < 3 && request.spacing; ++axis) {
         glm::dvec3& step = grid.step[static_cast<std::size_t>(axis)];
@@ -237,18 +250,20 @@ Volume read_volume(const Path& path, const VolumeRequest& request) {
     return open_volume(path, request, {});
 }
 
-Volume open_volume(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
+Volume open_volume(const Path& path, const VolumeRequest& request, const VolumeUse& asked) {
     expect_allowed(path);
+    VolumeUse use = asked;
+    use.lookup = request.lookup;
     const VolumeFormat& format = request.raw ? raw_format : expected_format(path);
     expect_known_keys(path, format, request);
     if (use.residence == VolumeUse::Residence::as_fits ||
         use.residence == VolumeUse::Residence::in_files) {
         if (const auto copy = open_bricked_copy(path, request, use))
-            return placed(path, *copy, request);
+            return placed(path, *copy, request, use);
     }
     if (format.is_read_whole && use.residence == VolumeUse::Residence::in_files)
         expect_room(path.string(), 0, use, fmt::format("{} is read as a whole", format.name));
-    return placed(path, format.open(path, request, use), request);
+    return placed(path, format.open(path, request, use), request, use);
 }
 
 std::vector<Path> files_of_volume(const Path& path, const VolumeRequest& request) {

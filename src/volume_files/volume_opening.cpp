@@ -152,6 +152,15 @@ constexpr double gradient_bytes = 8, float_bytes = 4;  // for each sample
 
 }  // namespace
 
+void take_for_labels(const std::string& file, const char* who, const VolumeUse& use, Grid& grid) {
+    if (use.lookup) return;
+    grid.lookup = VolumeLookup::nearest;
+    warn(
+        fmt::format("{}: its samples are labels, as {} says: \"lookup\": \"linear\" in the volume "
+                    "interpolates between them",
+                    file, who));
+}
+
 bool stays_in_files(const Grid& grid, SampleType type, const VolumeUse& use) {
     if (use.residence != VolumeUse::Residence::as_fits)
         return use.residence != VolumeUse::Residence::in_memory;
@@ -223,7 +232,7 @@ Volume open_stored(const Grid& grid, const StoredData& data, const VolumeUse& us
                                    : fmt::format("its samples are of type {}", name_of(data.type));
         expect_room(name, bytes, use, why);
     }
-    return drawn_volume(grid, read_stored(data));
+    return drawn_volume(grid, read_stored(data), use.lookup);
 }
 
 }  // namespace lamina

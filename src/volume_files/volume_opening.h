@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,9 +64,14 @@ struct VolumeUse {
         in_order,  // in its files if these can be read once, in order
     };
     Residence residence = Residence::in_memory;
-    bool lit = false;                    // drawing takes memory for gradients, too
-    VolumeContents* contents = nullptr;  // if set, filled by the reader
+    bool lit = false;                      // drawing takes memory for gradients, too
+    VolumeContents* contents = nullptr;    // if set, filled by the reader
+    std::optional<VolumeLookup> lookup{};  // VolumeRequest::lookup
 };
+
+// Takes samples for labels because the file says that they are, unless the user says how samples
+// are looked up. `who`: what of the file says so, for a warning.
+void take_for_labels(const std::string& file, const char* who, const VolumeUse& use, Grid& grid);
 
 // Tells if a volume that can stay in its files is to do so: by use.residence; for as_fits, if it
 // and its derived data for drawing exceed the memory limit (base/memory.h).

@@ -124,7 +124,7 @@ class VtkImage {
                  found_.size());
         }
         if (!head_.geometry) grid_ = grid();
-        return without_hidden(drawn_volume(grid_, all_));
+        return without_hidden(drawn_volume(grid_, all_, use_.lookup));
     }
 
   private:
@@ -361,7 +361,7 @@ class VtkImage {
             fmt::format("{}: {} of {} samples are hidden by ghost arrays and become NaN, which "
                         "\"nan\": \"transparent\" in a scene does not draw",
                         head_.file, count, hidden.size()));
-        return Volume(volume.grid(), SampleType::float32, memory);
+        return Volume(volume.grid(), SampleType::float32, memory).labelled(volume.labels());
     }
 
     const VtkImageHead& head_;

@@ -11,6 +11,7 @@
 #include "base/input_file.h"
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "volume/labels.h"
 #include "volume_files/volume_formats.h"
 #include "volume_files/zarr_image.h"
 
@@ -139,7 +140,10 @@ ZarrImage image_of(const ZarrStore& store, const Path& array) {
             if (!is_restricted()) warn(fmt::format("{}: {}", array.string(), problem.what()));
         }
     }
-    return level ? read_ome_image(node, level) : ZarrImage{array, {}, {}, {}, {}, {}};
+    if (level) return read_ome_image(node, level);
+    ZarrImage alone;
+    alone.folder = array;
+    return alone;
 }
 
 // Returns the array or image that the request takes of a folder; `axes` is empty for an array. Sets
@@ -218,7 +222,8 @@ Volume volume_of(ZarrChunks chunks, const Grid& grid, const VolumeUse& use) {
         values.say_missing(values.mark(grid.sample_count(), samples.get(), marked.get()));
         samples = marked;
     }
-    return drawn_volume(grid, {name, values.type(), samples, values.scale(), values.offset()});
+    return drawn_volume(grid, {name, values.type(), samples, values.scale(), values.offset()},
+                        use.lookup);
 }
 
 }  // namespace
@@ -283,7 +288,7 @@ Volume open_zarr(const Path& path, const VolumeRequest& request, const VolumeUse
         fail("{}: shape: found {} axes, expected {}, as the image has", array.header_name(),
              array.shape.size(), image.axes.size());
     }
-    const ArrayPlace placed = place_array(describe_zarr(array, image), request, contents);
+    ArrayPlace placed = place_array(describe_zarr(array, image), request, contents);
     if (placed.axes[0] < 0 || placed.axes[1] < 0)
         fail("{}: axes: found no \"y\" and \"x\", expected both", array.folder.string());
     if (use.contents != nullptr) {
@@ -296,7 +301,10 @@ Volume open_zarr(const Path& path, const VolumeRequest& request, const VolumeUse
         warn(fmt::format("{}: {} of {} chunks are not there: they have the fill value {}",
                          array.folder.string(), chunks.missing(), chunks.count(), array.fill_text));
     }
-    return volume_of(std::move(chunks), placed.grid, use);
+    if (image.is_labels)
+        take_for_labels(array.folder.string(), "the OME-Zarr image", use, placed.grid);
+    const Volume volume = volume_of(std::move(chunks), placed.grid, use);
+    return image.labels.empty() ? volume : with_descriptions(volume, image.labels);
 }
 
 std::vector<Path> files_of_zarr(const Path& path) {

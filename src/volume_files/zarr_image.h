@@ -34,6 +34,8 @@ struct ZarrImage {
     std::vector<double> steps, firsts;
     std::vector<std::string> channels;  // names, as many as the image gives
     std::vector<std::filesystem::path> levels;
+    bool is_labels = false;     // its samples are labels
+    std::vector<Label> labels;  // that the image describes
 };
 
 // Returns the attributes in which OME-Zarr's metadata are: the member "ome" from version 0.5 on.

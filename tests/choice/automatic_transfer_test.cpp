@@ -47,6 +47,41 @@ TEST(AutomaticTransfer, NoColorChannelIsFullyBright) {
     }
 }
 
+ValueDistribution labels_up_to(int last) {
+    std::vector<WeightedValue> values;
+    for (int label = 0; label <= last; ++label)
+        values.push_back({static_cast<double>(label), label == 1 ? 1000. : 10.});
+    return ValueDistribution(values);
+}
+
+// A sixteenth of full scale in one channel is a step that everybody sees.
+TEST(AutomaticTransfer, GivesEachLabelAColourThatDiffersFromItsNeighbours) {
+    const VolumeLabels nothing;
+    const TransferFunction palette =
+        choose_transfer_function(labels_up_to(3000), true, {}, least_padding, &nothing)
+            .transfer_function;
+    EXPECT_EQ(palette.at(0).extinction, 0);  // label 0 is the background, not the commonest
+    for (int label = 1; label <= 3000; ++label) {
+        EXPECT_GT(palette.at(label).extinction, .09) << label;  // at most ten times less dense
+        EXPECT_EQ(palette.at(label), palette.at(label + .4)) << label;
+        for (int back = 1; back <= 5 && back < label; ++back) {
+            const glm::dvec3 change =
+                glm::abs(palette.at(label).color - palette.at(label - back).color);
+            EXPECT_GT(std::max({change.r, change.g, change.b}), 1. / 16) << label << " " << back;
+        }
+    }
+}
+
+TEST(AutomaticTransfer, TakesColoursOfLabelsFromTheirFile) {
+    const VolumeLabels labels{true, {{0, "-5"}, {1, "0"}, {2, "8", "", glm::dvec3(.1, .2, .3)}}};
+    const AutomaticTransfer chosen =
+        choose_transfer_function(labels_up_to(2), true, {}, least_padding, &labels);
+    EXPECT_EQ(chosen.transfer_function.at(1).extinction, 0);
+    EXPECT_GT(chosen.transfer_function.at(0).extinction, 0);
+    EXPECT_EQ(chosen.transfer_function.at(2).color, glm::dvec3(.1, .2, .3));
+    EXPECT_NE(chosen.reason.find("labels: 0, "), std::string::npos) << chosen.reason;
+}
+
 TEST(AutomaticTransfer, BothSidesOfACommonValueShow) {
     std::vector<WeightedValue> values{{0, 1000}};
     for (int i = 1; i <= 100; ++i) {

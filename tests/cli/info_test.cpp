@@ -65,6 +65,30 @@ TEST_F(Info, TextHasPercentilesAndAHistogram) {
     EXPECT_EQ(std::count(shown.begin(), shown.end(), '%'), 9 + 16) << shown;
 }
 
+// 40 samples of each label, and a name for one of them.
+TEST_F(Info, ListsLabelsByTheNumbersOfTheFile) {
+    std::string values;
+    for (const char* const label : {" 0", " 9", " 5000000000"})
+        for (int i = 0; i < 40; ++i) values += label;
+    write_bytes_to(folder / "l.nrrd",
+                   "NRRD0005\ntype: int64\ndimension: 3\nsizes: 120 1 1\nencoding: ascii\n"
+                   "Segment0_ID:=s\nSegment0_LabelValue:=9\nSegment0_Name:=liver\n\n" +
+                       values + "\n");
+    const json found = info("l.nrrd");
+    EXPECT_EQ(found["lookup"], "nearest");
+    EXPECT_EQ(found["range"], json({0, 2}));
+    ASSERT_EQ(found["labels"].size(), 3u);
+    EXPECT_EQ(found["labels"][1]["number"], 9);
+    EXPECT_EQ(found["labels"][1]["name"], "liver");
+    EXPECT_DOUBLE_EQ(found["labels"][1]["share"].get<double>(), 1 / 3.);
+    EXPECT_EQ(found["labels"][2]["number"], 5000000000);
+    const std::string shown = text("l.nrrd");
+    EXPECT_NE(shown.find("0 (33.3 %), 9 liver (33.3 %), 5000000000 (33.3 %)"), std::string::npos)
+        << shown;
+    EXPECT_EQ(info("a.nrrd")["lookup"], "linear");
+    EXPECT_EQ(info("a.nrrd")["labels"], json::array());
+}
+
 // The values differ only beyond their sixth digit.
 TEST_F(Info, TextHasTheDigitsThatTellValuesApart) {
     std::string values;

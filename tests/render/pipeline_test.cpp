@@ -61,6 +61,44 @@ TEST(Pipeline, IntegratesVoxelsExactlyAndUnlit) {
                  {"s: render.slice.classification: found \"preintegrated\"", "\"nearest\""});
 }
 
+// Labels 0, 9 and 5000000000 have the codes 0 to 2; functions that are given mean the labels.
+TEST(Pipeline, GivesLabelsTheOpticsOfTheirNumbers) {
+    const TemporaryFolder folder;
+    std::string samples;
+    for (const std::int64_t label : {0L, 9L, 5000000000L})
+        for (int i = 0; i < 40; ++i)
+            samples.append(reinterpret_cast<const char*>(&label), sizeof label);
+    write_bytes_to(folder / "a.nrrd",
+                   "NRRD0004\ntype: int64\ndimension: 3\nsizes: 120 1 1\nencoding: raw\n"
+                   "endian: little\n\n" +
+                       samples);
+    nlohmann::json document = minimal_scene();
+    document["volume"] = {{"path", "a.nrrd"}};
+    document["transfer_function"] = {{"interpolation", "nearest"},
+                                     {"points",
+                                      {{{"value", 0}, {"color", {0, 0, 0}}, {"extinction", 0}},
+                                       {{"value", 9}, {"color", {1, 0, 0}}, {"extinction", 1}},
+                                       {{"value", 5e9}, {"color", {0, 0, 1}}, {"extinction", 2}}}}};
+    Pipeline pipeline(read_scene(document, folder / "scene.json"));
+    const auto expect_colours = [&](const TransferFunction& function) {
+        EXPECT_TRUE(function.of_codes());
+        EXPECT_EQ(function.at(1).color, glm::dvec3(1, 0, 0));
+        EXPECT_EQ(function.at(2).color, glm::dvec3(0, 0, 1));
+    };
+    expect_colours(*pipeline.scene().transfer_function);
+    // A saved scene names codes, and is not converted again.
+    Pipeline saved(read_scene(scene_json(pipeline.scene()), folder / "saved.json"));
+    EXPECT_EQ(saved.scene().transfer_function, pipeline.scene().transfer_function);
+    pipeline.set_transfer_function(*pipeline.asked().transfer_function);
+    expect_colours(*pipeline.scene().transfer_function);
+    document.erase("transfer_function");
+    Pipeline chosen(read_scene(document, folder / "scene.json"));
+    EXPECT_TRUE(chosen.scene().transfer_function->of_codes());
+    EXPECT_EQ(chosen.scene().transfer_function->at(0).extinction, 0);
+    EXPECT_NE(chosen.scene().transfer_function->at(1).color,
+              chosen.scene().transfer_function->at(2).color);
+}
+
 TEST(Pipeline, StretchesAnotherColormapOverTheDataItHas) {
     Pipeline pipeline(read_scene(minimal_scene(), "s"));
     pipeline.set_transfer_function_of(read_scene(with_open_map(), "s"));

@@ -95,6 +95,23 @@ TEST_P(NearestLookup, ThinVolumesMeetTheTracer) {
     }
 }
 
+// As many labels as codes of 16 bits name, each in a voxel of its own.
+TEST_P(NearestLookup, EachOfManyLabelsHasItsOwnOptics) {
+    constexpr int labels = 65535, edge = 41;
+    const Volume volume = as_voxels(test::volume_of<std::uint16_t>(
+        test::grid_of({edge, edge, edge}, Centering::cell), [](double x, double y, double z) {
+            return std::fmod(40503 * (x + edge * (y + edge * z)), labels);
+        }));
+    std::vector<TransferKnot> points;
+    for (int label = 0; label < labels; ++label) {
+        const auto share = [&](int of) { return label % of / double(of); };
+        points.push_back(knot(label, {share(7), share(11), share(13)}, share(5) / 4));
+    }
+    Scene scene = exact_scene(TransferFunction::nearest(points), Projection::perspective);
+    lamina::look_from(volume, glm::dvec3(.6, .5, .8), 1.1, scene);
+    EXPECT_LE(linf(draw(volume, scene), trace(volume, scene, 1e-8)), promised);
+}
+
 // A voxel whose sample is NaN is transparent, and no other.
 TEST_P(NearestLookup, OnlyVoxelsOfNanShowNothing) {
     const Volume volume = as_voxels(

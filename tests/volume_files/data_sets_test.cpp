@@ -5,7 +5,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/error.h"
 #include "volume/min_max_bricks.h"
+#include "volume_files/volume_file.h"
 #include "volume_files/volume_formats.h"
 
 namespace lamina {
@@ -57,6 +59,23 @@ INSTANTIATE_TEST_SUITE_P(
                       DataSet{"hydrogen", {64, 64, 64}, SampleType::float32, unit, 1},
                       DataSet{"heptane", {302, 302, 302}, SampleType::uint8, unit, 255}),
     [](const auto& test) { return std::string(test.param.name); });
+
+// None of the project's data are labels, also those that are mostly empty.
+TEST(ProjectData, IsNoLabels) {
+    if (!std::filesystem::exists(data_folder())) GTEST_SKIP() << data_folder() << " is not there";
+    int read = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(data_folder())) {
+        const std::filesystem::path path = entry.path();
+        try {
+            if (!is_volume_file(path)) continue;
+            EXPECT_EQ(read_volume(path).grid().lookup, VolumeLookup::linear) << path;
+            ++read;
+        } catch (const Error&) {
+            continue;  // other tests say which are refused
+        }
+    }
+    EXPECT_GT(read, 10);
+}
 
 }  // namespace
 }  // namespace lamina

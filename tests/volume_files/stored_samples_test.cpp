@@ -28,7 +28,8 @@ class DrawnSamples : public ::testing::Test {
         StoredSamples samples{"a.file", type, filled_memory(values.size() * sizeof(T)), scale,
                               offset};
         std::memcpy(samples.bytes.get(), values.data(), values.size() * sizeof(T));
-        return drawn_volume(plain_grid({static_cast<std::int64_t>(values.size()), 1, 1}), samples);
+        return drawn_volume(plain_grid({static_cast<std::int64_t>(values.size()), 1, 1}), samples,
+                            std::nullopt);
     }
 
     template <typename T>
@@ -70,10 +71,14 @@ TEST_F(DrawnSamples, WarnOfIntegersThatFloatsCannotHold) {
     // 2^24 + 1 is the first whole number that float32 lacks; it becomes 2^24.
     drawn<std::int32_t>(ValueType::int32, {16777216, 16777217, -16777217, 5});
     ASSERT_EQ(warnings_.size(), 1u);
-    EXPECT_EQ(warnings_[0], "a.file: 2 of 4 int32 samples are rounded to float, by up to 1");
+    EXPECT_EQ(warnings_[0],
+              "a.file: 2 of 4 int32 samples are rounded to float, by up to 1"
+              ": \"lookup\": \"nearest\" in the volume keeps labels apart");
     drawn<std::int64_t>(ValueType::int64, {std::numeric_limits<std::int64_t>::max()});
     ASSERT_EQ(warnings_.size(), 1u);  // becomes 2^63
-    EXPECT_EQ(warnings_[0], "a.file: 1 of 1 int64 samples are rounded to float, by up to 1");
+    EXPECT_EQ(warnings_[0],
+              "a.file: 1 of 1 int64 samples are rounded to float, by up to 1"
+              ": \"lookup\": \"nearest\" in the volume keeps labels apart");
     drawn<std::uint64_t>(ValueType::uint64, {std::numeric_limits<std::uint64_t>::max()});
     EXPECT_EQ(warnings_.size(), 1u);
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -107,7 +112,8 @@ TEST_F(DrawnSamples, AreScaledInDoublePrecision) {
 TEST_F(DrawnSamples, AreTheFilesOwnWhereTheirTypeIsDrawn) {
     StoredSamples samples{"a.file", ValueType::float32, filled_memory(8)};
     std::memset(samples.bytes.get(), 0, 8);
-    EXPECT_EQ(drawn_volume(plain_grid({2, 1, 1}), samples).data(), samples.bytes.get());
+    EXPECT_EQ(drawn_volume(plain_grid({2, 1, 1}), samples, std::nullopt).data(),
+              samples.bytes.get());
 }
 
 TEST(SwapBytes, TurnsWordsOfEverySize) {

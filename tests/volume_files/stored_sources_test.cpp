@@ -157,7 +157,9 @@ TEST_F(StoredSources, ReportThatAFileWasChanged) {
 
 TEST_F(StoredSources, AChunkThatChangesIsAnError) {
     const fs::path path = zarr(nlohmann::json::object());
-    const Volume volume = open_volume(path, {}, in_files);
+    VolumeRequest unmeasured;  // no chunk is read before it changes
+    unmeasured.lookup = VolumeLookup::linear;
+    const Volume volume = open_volume(path, unmeasured, in_files);
     std::string samples(31 * 17 * 23, '\0');
     write("a.zarr/0.1.0", noise_bytes(8 * 9 * 16 - 3));
     expect_error(

@@ -10,7 +10,9 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/json_text.h"
 #include "base/output_file.h"
+#include "choice/field.h"
 #include "image/png.h"
 #include "mesh/mesh_picture.h"
 #include "mesh/mesh_shape.h"
@@ -111,8 +113,32 @@ Json json_of(const std::array<Centering, 3>& centering) {
     return Json::array({word(centering[0]), word(centering[1]), word(centering[2])});
 }
 
-Json describe(const Volume& volume, const VolumeContents& contents, const MinMaxBricks& bricks,
+// Lists the labels of a volume by the file's numbers; empty if its samples are no labels.
+Json labels_of(const VolumeData& data) {
+    Json list = Json::array();
+    const VolumeField field(data);
+    if (field.labels() == nullptr) return list;
+    const std::vector<Label>& described = field.labels()->list;
+    const ValueDistribution values = field.distribution();
+    auto label = described.begin();
+    for (std::size_t i = 0; i < values.distinct(); ++i) {
+        const double code = values.value(i);
+        label = std::ranges::lower_bound(label, described.end(), code, {}, &Label::code);
+        Json entry{{"number", static_cast<std::int64_t>(code)},
+                   {"share", values.share(code, code)}};
+        if (label != described.end() && label->code == code) {
+            entry["number"] = parse_json(label->number);
+            if (!label->name.empty()) entry["name"] = label->name;
+            if (label->color) entry["color"] = json_vector(*label->color);
+        }
+        list.push_back(entry);
+    }
+    return list;
+}
+
+Json describe(const VolumeData& data, const VolumeContents& contents,
               const ValueStatistics& statistics) {
+    const auto& [volume, bricks, values] = data;
     const Grid& grid = volume.grid();
     const Grid::Bounds bounds = grid.bounds();
     Json info;
@@ -129,6 +155,8 @@ Json describe(const Volume& volume, const VolumeContents& contents, const MinMax
     info["origin"] = json_vector(grid.origin);  // centre of the first sample
     info["unit"] = nullptr;                     // null: the file names none
     if (!grid.unit.empty()) info["unit"] = grid.unit;
+    info["lookup"] = grid.lookup == VolumeLookup::nearest ? "nearest" : "linear";
+    info["labels"] = labels_of(data);
     info["arrays"] = contents.arrays;
     info["channels"] = contents.channels;
     info["times"] = contents.times;
@@ -196,6 +224,18 @@ std::string choice_text(const std::string& key, const Json& list, const std::str
                        key == "arrays" ? "NAME" : "NUMBER");
 }
 
+std::string labels_text(const Json& labels) {
+    constexpr std::size_t most_entries = 16;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(labels.size(), most_entries); ++i) {
+        const std::string name = printable(labels[i].value("name", std::string()));
+        text += fmt::format("{}{}{}{} ({:.3g} %)", i == 0 ? "" : ", ", labels[i]["number"].dump(),
+                            name.empty() ? "" : " ", name, 100 * labels[i]["share"].get<double>());
+    }
+    return labels.size() > most_entries ? fmt::format("{}, ... {} in all", text, labels.size())
+                                        : text;
+}
+
 std::string histogram_text(const Json& histogram) {
     const auto edges = histogram["edges"].get<std::vector<double>>();
     const auto counts = histogram["counts"].get<std::vector<std::int64_t>>();
@@ -261,13 +301,12 @@ nlohmann::ordered_json report_on_volume(const std::string& file, const std::stri
     VolumeContents contents;
     const VolumeData data(open_volume(
         file, request, {.residence = VolumeUse::Residence::as_fits, .contents = &contents}));
-    const auto& [volume, bricks, values] = data;
     const ValueStatistics statistics = measure_values(data);
     if (picture) {
-        write_png(*picture, picture_of(volume, bricks.whole, statistics));
+        write_png(*picture, picture_of(data.volume, data.bricks.whole, statistics));
         picture->commit();
     }
-    return describe(volume, contents, bricks, statistics);
+    return describe(data, contents, statistics);
 }
 
 }  // namespace lamina

@@ -24,6 +24,8 @@ void add_statistics(const ValueStatistics& statistics, nlohmann::ordered_json& i
 // Return the values of these two keys, which must not be null, as text; a histogram has at most 16
 // rows.
 std::string percentiles_text(const nlohmann::ordered_json& percentiles);
+// Lists at most 16 labels with their names and shares.
+std::string labels_text(const nlohmann::ordered_json& labels);
 std::string histogram_text(const nlohmann::ordered_json& histogram);
 
 // Returns `above` on white, and under it the picture below(width). `width` is that of `above`, but

@@ -54,6 +54,8 @@ std::string table_text(const Json& info) {
         } else if (is_choice(key)) {
             const std::string row = choice_text(key, value, info["kind"]);
             if (!row.empty()) text += fmt::format("{:<17} {}\n", key, row);
+        } else if (key == "labels") {
+            if (!value.empty()) text += fmt::format("labels            {}\n", labels_text(value));
         } else if (key == "histogram" && !value.is_null())
             text += fmt::format("{:<17} {}", key, histogram_text(value));
         else

@@ -92,7 +92,8 @@ void check(const MeshOptions& options) {
 }
 
 MeshTask load(const MeshOptions& options, const MeshOutput& output) {
-    const VolumeRequest request = request_of(options.raw);
+    VolumeRequest request = request_of(options.raw);
+    request.lookup = VolumeLookup::linear;  // tets interpolate between labels, too
     const FileKind kind = request.raw ? FileKind::volume : kind_of_file(options.input);
     if (kind == FileKind::mesh)
         fail("{}: is a mesh already, expected a volume or a scene (JSON)", options.input);

@@ -133,7 +133,15 @@ void TimeSeries::draw_missing(const std::vector<std::int64_t>& steps, SeriesReco
                               Pipeline& pipeline, RunStatistics& run,
                               PictureAttributes& attributes) const {
     Progress progress("drawing steps", static_cast<std::int64_t>(steps.size()));
-    const Scene resolved = pipeline.resolved_scene();
+    Scene resolved = pipeline.resolved_scene();
+    // All steps are labels, or none.
+    if (VolumeFile* const volume = resolved.volume_file(); volume && !resolved.draws_mesh())
+        volume->selection.lookup = pipeline.data().volume(resolved)->volume.grid().lookup;
+    if (resolved.transfer_function->of_codes()) {
+        warn(
+            "labels that 16 bits do not hold are numbered anew in each step, so that a label may "
+            "change its colour");
+    }
     const std::int64_t first = series_.steps().front();
     std::future<Loaded> next;
     const auto read_ahead = [&](std::size_t i) {

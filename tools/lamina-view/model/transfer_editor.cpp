@@ -197,6 +197,7 @@ TransferEditor::TransferEditor() : function_(curves_.function()) {}
 bool TransferEditor::put(const TransferCurves& curves) {
     try {
         function_ = curves.function();
+        if (of_codes_) function_ = function_.with_codes();
     } catch (const Error&) {
         return false;
     }
@@ -221,6 +222,7 @@ void TransferEditor::set_unit_length(double length) {
 
 void TransferEditor::take(const TransferFunction& function) {
     if (function == function_) return;
+    of_codes_ = function.of_codes();
     restore(curves_of(function, unit_length_));
 }
 

@@ -121,6 +121,7 @@ class TransferEditor {
 
     TransferCurves curves_;
     TransferFunction function_;
+    bool of_codes_ = false;
     double unit_length_ = 1;
     std::set<TransferHandle> selection_;
     std::optional<TransferCurves> start_;  // the state at begin_move()
