@@ -290,10 +290,13 @@ AutomaticTransfer label_transfer(const ValueDistribution& values, const VolumeLa
         else if (label.color)
             point->optics.color = *label.color;
     }
-    return {TransferFunction::nearest(points),
-            fmt::format("{} whole numbers are taken for labels: {}, {:.3g} % of the field, is "
-                        "transparent, each of the others has a colour",
-                        values.distinct(), transparent, 100 * share_of(background))};
+    return {
+        TransferFunction::nearest(points),
+        fmt::format("{} {}: {}, {:.3g} % of the field, is transparent, each of the others has a "
+                    "colour",
+                    values.distinct(),
+                    labels != nullptr ? "labels" : "whole numbers are taken for labels",
+                    transparent, 100 * share_of(background))};
 }
 
 AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers) {

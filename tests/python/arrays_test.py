@@ -267,3 +267,18 @@ def test_bare_arrays_are_volumes(blob, function):
     assert picture.array.max() > 0
     with pytest.raises(TypeError, match="found int, expected a Volume, a Mesh, an array"):
         lamina.render(3)
+
+
+def test_labels_of_files_have_their_numbers(tmp_path):
+    stored = np.zeros((3, 40, 40), np.int64)
+    stored[1] = 9
+    stored[2] = 5_000_000_000
+    np.save(tmp_path / "a.npy", stored)
+    volume = lamina.read(tmp_path / "a.npy", lookup="nearest")
+    assert volume.lookup == "nearest" and volume.dtype == np.uint8
+    assert volume.labels == {0: (0, ""), 1: (9, ""), 2: (5_000_000_000, "")} == volume.copy().labels
+    palette = [(0, "black", 0), (9, "red", 100), (5e9, "blue", 100)]
+    picture = lamina.render(volume, lamina.TransferFunction(palette, interpolation="nearest"), size=(8, 8))
+    red, green, blue = picture.array[4, 4, :3]  # seen from +z
+    assert red < 0.01 and green == 0 and blue > 0.99
+    assert lamina.Volume(stored.astype(np.uint8)).labels == {}
