@@ -151,7 +151,7 @@ std::optional<std::int64_t> TiffFile::raw_samples() const {
             return {};
     }
     const std::uint64_t begin = TIFFGetStrileOffset(tiff, 0);
-    if (begin > file_bytes_) return {};
+    if (begin > file_bytes_) return {};  // negative places count from the file's end
     return static_cast<std::int64_t>(begin);
 }
 

@@ -215,6 +215,11 @@ def shaped(cases, tifffile):
         for _ in range(2):
             out.write(volume, photometric="minisblack", volumetric=True)
     cases.refuse("depth_twice.tif", "page 1: found 8 images in strips")
+    tifffile.imwrite(cases.path("far.tif"), volume, photometric="minisblack", bigtiff=True, truncate=True)
+    with open(cases.path("far.tif"), "r+b") as file:
+        file.seek(file.read().index(b"\x11\1\x10\0\1\0\0\0\0\0\0\0") + 12)  # the value of StripOffsets
+        file.write(b"\xff" * 8)
+    cases.refuse("far.tif", "whose samples are not in one piece")
     for order in "<>":
         file = f"depth_tiles{order == '<'}.tif"
         tifffile.imwrite(cases.path(file), volume, photometric="minisblack", tile=(4, 16, 16), byteorder=order)
