@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "optics/opacity.glsl"
 #include "optics/transfer_function.glsl"
-#ifdef TABLE_COLORED
+#if defined(TABLE_COLORED) && defined(FRONT_WEIGHT_NODES)
+#include "optics/linear_segment.glsl"
+#elif defined(TABLE_COLORED)
 #include "optics/piece_weights.glsl"
 #else
 uniform vec3 single_color;
@@ -13,7 +15,7 @@ uniform vec3 single_color;
 // (docs/numerics.md, section 5). TABLE_COLORED: colours come from the transfer function; otherwise
 // the colour is `single_color`. LIT: adds light_on_piece(), which the including shader must define
 // before it includes analytic_segment.glsl. This is the twin of integrate_segment()
-// (optics/segment_integral.h) in float32. The optical depth is a sum of terms >= 0, so no digits
+// (optics/segment_integral.h) in float32. FRONT_WEIGHT_NODES: weights of colours come from a table. The optical depth is a sum of terms >= 0, so no digits
 // cancel. Extinction times length is finite for lengths up to 1e8 (executors/transfer_tables.h).
 vec4 integrate_segment(float front, float back, float world_length) {
     int interval = find_interval(clamp(front, 0.0, 1.0));

@@ -170,6 +170,7 @@ struct ProjectPlanner {
         // With a tree, transparent cell fragments are never drawn, even with --no-omit: leaves have
         // a fixed share of the cell fragments, so drawing more of them would make another picture.
         if (plan.source == SegmentSource::parts && settings.tree) plan.draw_transparent = false;
+        plan.walk = choose_walk();
         plan.error = picture_error();
         Plan made;
         made.method = Method::project;
@@ -280,6 +281,20 @@ struct ProjectPlanner {
                 choose_integral();
                 break;
         }
+    }
+
+    // Walks if the picture is right in every pixel and has float32: then nothing is rounded between
+    // two tets, so that it does not matter what composites them.
+    bool choose_walk() {
+        const bool walkable = !capabilities.cpu && plan.target == Target::float32 &&
+                              plan.geometry == ProjectGeometry::silhouette && plan.tree.empty() &&
+                              plan.thickness == Thickness::exact && !plan.nothing_visible &&
+                              !plan.lighting && (plan.solve_rings || plan.single_color) &&
+                              facts.overlapping_tets == 0 &&
+                              !has_narrow_pieces(*scene.transfer_function, drawn);
+        return omissions.leave_out(walkable, "blending",
+                                   "float32: each ray walks from tet to tet and composites in "
+                                   "registers; tets are neither sorted nor drawn");
     }
 
     // Returns the error, or none for pictures that are wrong on purpose; for triangles, whose

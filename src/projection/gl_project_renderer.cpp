@@ -139,6 +139,7 @@ GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, cons
                 texture_->upload({0, 0, 0, nodes, nodes, 1},
                                  std::span<const float>(FrontWeightTable::get().texels()));
             }
+            if (plan.walk) intervals_.emplace(transfer_function, plan.range, nullptr, false, 0);
             break;
         case SegmentSource::cut_table:
             intervals_.emplace(transfer_function, plan.range, plan.table.knot_table().get(),
@@ -177,13 +178,16 @@ void GlProjectTables::upload(const UniformTable& table) {
 }
 
 void GlProjectTables::set_defines(gl::Defines& defines) const {
-    defines.set("SOURCE", static_cast<int>(plan_.source));
+    // A walk has no cell fragments: it cuts each segment into its pieces.
+    const bool parts = plan_.source == SegmentSource::parts;
+    defines.set("SOURCE",
+                static_cast<int>(parts && plan_.walk ? SegmentSource::analytic : plan_.source));
     if (!plan_.single_color) defines.set("TABLE_COLORED", 1);
     if (plan_.table_filtered) defines.set("TABLE_FILTERED", 1);
-    if (plan_.source == SegmentSource::parts) {
+    if (parts) defines.set("FRONT_WEIGHT_NODES", FrontWeightTable::nodes);
+    if (parts && !plan_.walk) {
         defines.set("CUT", 1);
         defines.set("OPTICS", plan_.single_color ? "float" : "vec4");
-        defines.set("FRONT_WEIGHT_NODES", FrontWeightTable::nodes);
     }
     // At most one of `intervals_` and `table_` is set.
     if (intervals_) {

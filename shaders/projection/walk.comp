@@ -1,0 +1,153 @@
+#version 450 core
+// SPDX-License-Identifier: Apache-2.0
+// Walks the ray of each pixel through a mesh, front to back:
+//
+//   for each open face by which the ray enters the mesh, nearest first:
+//       while there is a tet behind the face:
+//           move through the tet to the face by which the ray leaves it       (walk_mesh.glsl)
+//           composite the segment between both faces                          (tet_color.glsl)
+//
+// No tet needs to be in order, and meshes may have rings, gaps and hollows. A dispatch takes `rounds` steps of a ray at
+// most and keeps its state for the next one. A workgroup draws a tile of 8 x 8 pixels, for which the open faces are
+// listed that its rays may enter.
+layout(local_size_x = 64) in;
+
+#define SOURCE_CONSTANT 0
+#define SOURCE_TABLE 1
+#define SOURCE_PARTS 2
+#define SOURCE_CUT_TABLE 3
+#define SOURCE_ANALYTIC 4
+#define SOURCE_MEAN 5
+#define SOURCE_VERTICES 6
+#if SOURCE == SOURCE_CONSTANT
+uniform vec4 constant_optics;  // colour, extinction
+#endif
+#include "projection/walk_mesh.glsl"
+
+struct FragmentSegment {
+    float front, back;  // scalars, normalised
+    float world_length;
+};
+FragmentSegment segment;
+FragmentSegment find_segment() { return segment; }
+#include "projection/tet_color.glsl"
+
+// The ray of a pixel between two dispatches.
+struct Ray {
+    uvec4 front;         // corners of the face by which it enters the next tet; the tet, or no_tet
+    uint last_entry;     // the open face by which it entered the mesh last
+    uint entries_left;   // open faces by which it enters behind that one
+    double entry_depth;  // of the last entry
+};
+layout(std430, binding = 0) buffer Pixels { vec4 pixels[]; };  // associated colour, row 0 on top
+layout(std430, binding = 1) buffer Rays { Ray rays[]; };       // 64 a tile
+layout(std430, binding = 2) buffer Unfinished { uint unfinished; };
+
+uniform usamplerBuffer tiles;         // first column, first row, first and last + 1 entry of `listed`
+uniform usamplerBuffer listed_faces;  // numbers of open faces
+uniform ivec2 image_size;
+uniform bool begins;   // this is the first dispatch of the picture
+uniform int rounds;
+uniform float near_depth;  // from the mesh's center
+
+// Opacity above which nothing behind can be seen: it hides all but 1e-6 of it, or 2.6e-4 / 255.
+const float opaque = 0.999999;
+
+// Finds the first entry behind the last one, and counts the entries behind that. Returns the tet, or no_tet.
+uint find_entry(uvec2 list, inout Ray ray, out Front front) {
+    uint found = no_tet, tet = no_tet;
+    double nearest = 0.0LF;
+    ray.entries_left = 0u;
+    for (uint i = list.x; i < list.y; ++i) {
+        uint face = texelFetch(listed_faces, int(i)).x;
+        uvec4 corners = texelFetch(open_faces, int(face));
+        Front seen = front_of(corners.xyz);
+        if (!enters(seen)) continue;
+        double depth = crossing_of(seen).x;
+        bool behind = ray.last_entry == no_tet || depth > ray.entry_depth ||
+                      (depth == ray.entry_depth && face > ray.last_entry);
+        if (!behind) continue;
+        if (found != no_tet) ++ray.entries_left;
+        if (found != no_tet && (depth > nearest || (depth == nearest && face > found))) continue;
+        found = face;
+        nearest = depth;
+        tet = corners.w;
+        front = seen;
+    }
+    ray.last_entry = found;
+    ray.entry_depth = nearest;
+    return tet;
+}
+
+uvec2 pixel_in_tile(uint i) {  // Morton order
+    uint x = (i & 1u) | ((i >> 1) & 2u) | ((i >> 2) & 4u);
+    uint y = ((i >> 1) & 1u) | ((i >> 2) & 2u) | ((i >> 3) & 4u);
+    return uvec2(x, y);
+}
+
+void main() {
+    uvec4 tile = texelFetch(tiles, int(gl_WorkGroupID.x));
+    ivec2 pixel = ivec2(tile.xy + pixel_in_tile(gl_LocalInvocationIndex));
+    if (any(greaterThanEqual(pixel, image_size))) return;
+    int place = pixel.y * image_size.x + pixel.x;
+    uint number = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex;
+    aim(vec2(pixel.x + 0.5, image_size.y - pixel.y - 0.5));
+
+    vec4 color = vec4(0.0);
+    Ray ray = Ray(uvec4(0u, 0u, 0u, no_tet), no_tet, 1u, 0.0LF);
+    Front front;
+    dvec2 in_crossing;
+    if (!begins) {
+        ray = rays[number];
+        color = pixels[place];
+        if (ray.front.w != no_tet) {
+            front = front_of(ray.front.xyz);
+            in_crossing = crossing_of(front);
+        }
+    }
+    uint tet = ray.front.w;
+    int left = rounds;
+    while (left > 0 && (tet != no_tet || ray.entries_left > 0u)) {
+        --left;
+        if (tet == no_tet) {
+            tet = find_entry(tile.zw, ray, front);
+            in_crossing = crossing_of(front);
+        }
+        // The ray goes on to the next segment that may show something.
+        bool shown = false;
+        while (tet != no_tet && left > 0 && !shown) {
+            --left;
+            uvec4 corners = texelFetch(tets, int(2u * tet));
+            uvec4 behind = texelFetch(tets, int(2u * tet + 1u));
+            shown = (corners.x & hidden_tet) == 0u;
+            corners.x &= ~hidden_tet;
+            tet = step_through(corners, behind, front);
+            dvec2 out_crossing = crossing_of(front);
+            out_crossing.x = max(out_crossing.x, in_crossing.x);
+            double start = max(in_crossing.x, double(near_depth)), length = out_crossing.x - start;
+            shown = shown && length > 0.0LF;
+            double whole = out_crossing.x - in_crossing.x;
+            double front_scalar = in_crossing.y;
+            if (start > in_crossing.x)
+                front_scalar += (out_crossing.y - in_crossing.y) * ((start - in_crossing.x) / whole);
+            segment = FragmentSegment(float(front_scalar), float(out_crossing.y), float(length * length_per_depth));
+            in_crossing = out_crossing;
+        }
+        for (bool added = !shown; !added; added = true) {  // software rasterisers skip loops, but no branches
+            color += (1.0 - color.a) * tet_color();
+        }
+        if (color.a > opaque) {
+            tet = no_tet;
+            ray.entries_left = 0u;
+        }
+    }
+    pixels[place] = color;
+    if (tet == no_tet && ray.entries_left == 0u) {
+        rays[number].front.w = no_tet;
+        rays[number].entries_left = 0u;
+    } else {
+        ray.front = uvec4(front.a.point, front.b.point, front.c.point, tet);
+        rays[number] = ray;
+        atomicAdd(unfinished, 1u);
+    }
+}

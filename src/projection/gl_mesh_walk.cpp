@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws a frame of a mesh:
+//   1. List the open faces that rays of each tile may enter, on all cores.
+//   2. Dispatch projection/walk.comp, a workgroup a tile, until no ray is unfinished.
+// The mesh is uploaded once, in the plan's units and relative to its center. All buffers of texels
+// have four integers a texel, into which floats are stored by their bits:
+//   tets        2 i: corners of tet i, the first with hidden_tet if it shows nothing;
+//               2 i + 1: tets behind the faces opposite to the corners
+//   points      2 i: place and normalised scalar; 2 i + 1: what float32 lost of them
+//   open faces  corners, counter-clockwise seen from outside, and the tet
+//   tiles       EntryTiles::Tile
+#include "projection/gl_mesh_walk.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "base/parallel.h"
+#include "base/profile.h"
+#include "scene/camera.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::uint32_t hidden_tet = 0x80000000u;
+
+// Steps of a ray in one dispatch: few enough that software rasterisers, which end all loops of an
+// invocation together after 65535 rounds, end none.
+constexpr int most_rounds = 4096;
+
+enum TextureUnit : unsigned {
+    tets_unit = 4,  // behind those of GlProjectTables
+    points_unit,
+    open_faces_unit,
+    tiles_unit,
+    listed_faces_unit
+};
+
+using Texel = std::array<std::uint32_t, 4>;
+
+// Splits four doubles into floats and what these lose.
+void write_doubles(const std::array<double, 4>& values, Texel& high, Texel& low) {
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto rounded = static_cast<float>(values[i]);
+        high[i] = std::bit_cast<std::uint32_t>(rounded);
+        low[i] = std::bit_cast<std::uint32_t>(static_cast<float>(values[i] - double{rounded}));
+    }
+}
+
+gl::Defines defines_of(const ProjectPlan& plan, const GlProjectTables& tables) {
+    gl::Defines defines = project_defines(plan, FragmentKind::plain);
+    tables.set_defines(defines);
+    return defines;
+}
+
+gl::TexelBuffer make_texels(const std::vector<Texel>& texels) {
+    gl::TexelBuffer buffer(4, texels.size());
+    buffer.write(std::span(texels));
+    return buffer;
+}
+
+// Makes the buffer larger if it does not hold `texels`.
+void reserve(gl::TexelBuffer& buffer, int components, std::size_t texels) {
+    const std::size_t bytes = texels * static_cast<std::size_t>(components) * sizeof(std::uint32_t);
+    if (buffer.byte_count() < bytes) buffer = gl::TexelBuffer(components, texels + texels / 2);
+}
+
+}  // namespace
+
+// Bounds each face's tiles: the pixels around its corners, or all if it crosses the plane of the
+// eye. Faces that rays surely leave by get none.
+void EntryTiles::list(const TetMesh& mesh, const View& view) {
+    constexpr double margin = 1;      // pixel: more than rounding and ray_perturbation()
+    constexpr double edge_on = 1e-7;  // sine of an angle: more than these
+    const int columns = (view.width + size - 1) / size, rows = (view.height + size - 1) / size;
+    const Area everywhere{0, columns - 1, 0, rows - 1}, nowhere{0, -1, 0, -1};
+    const WindowView window(view);
+    const auto faces_of_mesh = mesh.open_faces();
+    const auto area_of = [&](const TetFace& face) -> Area {
+        const std::array<glm::dvec3, 3> corners = mesh.corners(face);
+        const glm::dvec3 normal =
+            glm::cross(corners[1] - corners[0], corners[2] - corners[0]);  // outwards
+        std::array<glm::dvec3, 3> seen;
+        for (std::size_t i = 0; i < 3; ++i) seen[i] = window.see(corners[i]);
+        const auto in_front = [](const glm::dvec3& p) { return p.z > 0; };
+        const bool front = std::ranges::all_of(seen, in_front);
+        if (window.perspective() && !front && std::ranges::any_of(seen, in_front))
+            return everywhere;
+        const glm::dvec3 to_face = window.perspective() ? corners[0] - view.eye : view.forward;
+        const double sign = window.perspective() && !front ? -1 : 1;
+        if (sign * glm::dot(normal, to_face) > edge_on * glm::length(normal) * glm::length(to_face))
+            return nowhere;
+        glm::dvec2 least(INFINITY), most(-INFINITY);
+        for (const glm::dvec3& p : seen) {
+            const glm::dvec2 place = window.to_window(p);
+            least = glm::min(least, place);
+            most = glm::max(most, place);
+        }
+        const auto tile = [](double pixel, int count) {
+            return static_cast<std::int32_t>(
+                std::clamp(std::floor(pixel / size), -1.0, double{1} * count));
+        };
+        return {std::max(tile(least.x - margin, columns), 0),
+                std::min(tile(most.x + margin, columns), columns - 1),
+                std::max(tile(view.height - most.y - margin, rows), 0),
+                std::min(tile(view.height - least.y + margin, rows), rows - 1)};
+    };
+    areas_.resize(faces_of_mesh.size());
+    parallel_for(std::ssize(faces_of_mesh), 1024, [&](std::int64_t i) {
+        const auto face = static_cast<std::size_t>(i);
+        areas_[face] = area_of(faces_of_mesh[face]);
+    });
+    const auto for_each_tile = [&](const auto& visit) {
+        for (std::size_t face = 0; face < areas_.size(); ++face) {
+            const Area& area = areas_[face];
+            for (std::int32_t row = area.first_row; row <= area.last_row; ++row)
+                for (std::int32_t column = area.first_column; column <= area.last_column; ++column)
+                    visit(static_cast<std::size_t>(row * columns + column), face);
+        }
+    };
+    ends_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
+    for_each_tile([&](std::size_t tile, std::size_t) { ++ends_[tile]; });
+    tiles.clear();
+    std::uint32_t listed = 0;
+    for (std::size_t tile = 0; tile < ends_.size(); ++tile) {
+        const std::uint32_t count = std::exchange(ends_[tile], listed);
+        if (count == 0) continue;
+        const auto place = static_cast<std::uint32_t>(tile);
+        const auto across = static_cast<std::uint32_t>(columns);
+        tiles.push_back({place % across * size, place / across * size, listed, listed + count});
+        listed += count;
+    }
+    faces.resize(listed);
+    for_each_tile([&](std::size_t tile, std::size_t face) {
+        faces[ends_[tile]++] = static_cast<std::uint32_t>(face);
+    });
+}
+
+GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_function,
+                       const ProjectPlan& plan, int width, int height,
+                       std::shared_ptr<VisibilityOrder> order)
+    : ProjectRenderer(mesh, transfer_function, plan, std::move(order)),
+      width_(width),
+      height_(height),
+      center_(0.5 * mesh.mesh.bounds().min + 0.5 * mesh.mesh.bounds().max),
+      tables_(transfer_function_, plan_),
+      program_("projection/walk.comp", defines_of(plan_, tables_)) {
+    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    pixels_ = gl::Buffer(pixels * 4 * sizeof(float));
+    pixels_.clear();
+    unfinished_ = gl::Buffer(sizeof(std::uint32_t));
+    upload_mesh();
+}
+
+void GlMeshWalk::upload_mesh() {
+    const Stage uploading("upload mesh");
+    const TetMesh& mesh = mesh_.mesh;
+    const auto& values = mesh_.scalar.values;
+    std::vector<Texel> texels(2 * mesh.tets().size());
+    parallel_for(std::ssize(mesh.tets()), 4096, [&](std::int64_t index) {
+        const auto i = static_cast<std::size_t>(index);
+        const Tet& tet = mesh.tets()[i];
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            texels[2 * i][corner] = static_cast<std::uint32_t>(tet[corner]);
+            texels[2 * i + 1][corner] = static_cast<std::uint32_t>(mesh.neighbors()[i][corner]);
+        }
+        const bool hidden = plan_.draw_transparent ? pieces_.met(values, tet).empty()
+                                                   : pieces_.visible(values, tet).empty();
+        if (hidden) texels[2 * i][0] |= hidden_tet;
+    });
+    tets_ = make_texels(texels);
+
+    const double per_scalar = 1 / (plan_.range.hi - plan_.range.lo);
+    texels.resize(2 * mesh.points().size());
+    for (std::size_t i = 0; i < mesh.points().size(); ++i) {
+        const glm::dvec3 place = plan_.unit * (mesh.points()[i] - center_);
+        // Tets with a scalar that is not finite are hidden, but rays pass them.
+        const double scalar =
+            std::isfinite(values[i]) ? (values[i] - plan_.range.lo) * per_scalar : 0;
+        write_doubles({place.x, place.y, place.z, scalar}, texels[2 * i], texels[2 * i + 1]);
+    }
+    points_ = make_texels(texels);
+
+    texels.resize(mesh.open_faces().size());
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        const TetFace& face = mesh.open_faces()[i];
+        const auto corners = corners_of_face(mesh.tets()[static_cast<std::size_t>(face.tet)],
+                                             static_cast<std::size_t>(face.face));
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            texels[i][corner] = static_cast<std::uint32_t>(corners[corner]);
+        texels[i][3] = static_cast<std::uint32_t>(face.tet);
+    }
+    open_faces_ = make_texels(texels);
+}
+
+void GlMeshWalk::upload_tiles() {
+    if (entries_.tiles.empty()) return;
+    constexpr std::size_t ray_bytes = 32, rays_in_tile = EntryTiles::size * EntryTiles::size;
+    reserve(tiles_, 4, entries_.tiles.size());
+    reserve(listed_faces_, 1, entries_.faces.size());
+    tiles_.write(std::span(entries_.tiles));
+    listed_faces_.write(std::span(entries_.faces));
+    const std::size_t bytes = entries_.tiles.size() * rays_in_tile * ray_bytes;
+    if (rays_.byte_count() < bytes) rays_ = gl::Buffer(bytes + bytes / 2);
+}
+
+void GlMeshWalk::set_view(const View& view) {
+    const View in_units = seeing_in_units(view, plan_.unit);
+    tables_.bind(program_);
+    const std::array axes{view.right, view.up, view.forward};
+    program_.set("view_axes", std::span<const glm::dvec3>(axes));
+    const glm::dvec3 from_eye = plan_.unit * (center_ - view.eye);
+    const glm::dvec3 center(glm::dot(from_eye, view.right), glm::dot(from_eye, view.up),
+                            glm::dot(from_eye, view.forward));
+    program_.set("mesh_center", center);
+    program_.set("image_middle", 0.5 * glm::dvec2(view.width, view.height));
+    program_.set("image_size", glm::ivec2(view.width, view.height));
+    program_.set("pixel_size", in_units.pixel);
+    program_.set("ray_perturbation", ray_perturbation(view));
+    program_.set("near_depth", static_cast<float>(plan_.near_depth - center.z));
+    program_.set("rounds", most_rounds);
+    const std::array<std::pair<const char*, const gl::TexelBuffer*>, 5> buffers{
+        {{"tets", &tets_},
+         {"points", &points_},
+         {"open_faces", &open_faces_},
+         {"tiles", &tiles_},
+         {"listed_faces", &listed_faces_}}};
+    unsigned unit = tets_unit;
+    for (const auto& [name, buffer] : buffers) {
+        buffer->bind(unit);
+        program_.set(name, static_cast<int>(unit++));
+    }
+    pixels_.bind_storage(0);
+    rays_.bind_storage(1);
+    unfinished_.bind_storage(2);
+}
+
+void GlMeshWalk::draw(const View& view, Progress* progress) {
+    Stage listing("order");
+    entries_.list(mesh_.mesh, view);
+    upload_tiles();
+    list_ms_ = listing.end();
+    Stage drawing("draw");
+    pixels_.clear();
+    if (!entries_.tiles.empty()) {
+        set_view(view);
+        std::uint32_t unfinished = 1;
+        for (int begins = 1; unfinished > 0; begins = 0) {
+            program_.set("begins", begins);
+            unfinished_.clear();
+            program_.dispatch(static_cast<int>(entries_.tiles.size()));
+            unfinished_.read(std::span(&unfinished, 1));
+            check_interrupt();
+        }
+    }
+    gl::api().Finish();
+    gl::check("walking through a mesh");
+    if (progress != nullptr) progress->advance();
+    draw_ms_ = drawing.end();
+}
+
+void GlMeshWalk::read(Image& image) const {
+    image.resize(width_, height_);
+    pixels_.read(std::span(image.rgba));
+}
+
+std::map<std::string, double> GlMeshWalk::stages_ms() const {
+    return {{"tables", table_ms_}, {"order", list_ms_}, {"draw", draw_ms_}};
+}
+
+}  // namespace lamina

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "gl/api.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "projection/gl_project_renderer.h"
+#include "projection/project_renderer.h"
+
+namespace lamina {
+
+// Lists, for each tile of a picture that a mesh covers, the open faces by which rays may enter it.
+struct EntryTiles {
+    static constexpr int size = 8;  // pixels along a side
+
+    struct Tile {
+        std::uint32_t column, row;  // its upper left pixel; row 0 is the top
+        std::uint32_t first, end;   // range of `faces`
+    };
+    std::vector<Tile> tiles;
+    std::vector<std::uint32_t> faces;  // indices into TetMesh::open_faces()
+
+    // Lists the faces for a view, on all cores.
+    void list(const TetMesh& mesh, const View& view);
+
+  private:
+    struct Area {  // tiles, first to last (included)
+        std::int32_t first_column, last_column, first_row, last_row;
+    };
+    std::vector<Area> areas_;          // of each open face
+    std::vector<std::uint32_t> ends_;  // of each tile's list
+};
+
+// Draws a mesh by a compute shader that walks each ray from tet to tet
+// (shaders/projection/walk.comp), in the current OpenGL context, which must outlive it. It needs no
+// order of tets.
+class GlMeshWalk : public ProjectRenderer {
+  public:
+    // The plan must have `walk`. The mesh must outlive the renderer.
+    GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_function,
+               const ProjectPlan& plan, int width, int height,
+               std::shared_ptr<VisibilityOrder> order = nullptr);
+
+    void draw(const View& view, Progress* progress = nullptr) override;
+    int step_count() const override { return 1; }
+    using FrameRenderer::read;
+    void read(Image& image) const override;
+    std::map<std::string, double> stages_ms() const override;
+    ProjectReuse reusable() const override { return {order_, nullptr}; }
+
+  private:
+    void upload_mesh();
+    void upload_tiles();
+    void set_view(const View& view);
+
+    int width_, height_;
+    glm::dvec3 center_;  // of the mesh's box
+    GlProjectTables tables_;
+    gl::Program program_;
+    EntryTiles entries_;
+    gl::TexelBuffer tets_, points_, open_faces_, tiles_, listed_faces_;
+    gl::Buffer pixels_, rays_, unfinished_;
+    double list_ms_ = 0;
+};
+
+}  // namespace lamina
