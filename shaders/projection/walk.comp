@@ -117,11 +117,9 @@ void main() {
         bool shown = false;
         while (tet != no_tet && left > 0 && !shown) {
             --left;
-            uvec4 corners = texelFetch(tets, int(2u * tet));
-            uvec4 behind = texelFetch(tets, int(2u * tet + 1u));
-            shown = (corners.x & hidden_tet) == 0u;
-            corners.x &= ~hidden_tet;
-            tet = step_through(corners, behind, front);
+            uint corners = texelFetch(tets, int(tet)).x;
+            shown = (corners & hidden_tet) == 0u;
+            tet = step_through(tet, corners & ~hidden_tet, front);
             dvec2 out_crossing = crossing_of(front);
             out_crossing.x = max(out_crossing.x, in_crossing.x);
             double start = max(in_crossing.x, double(near_depth)), length = out_crossing.x - start;

@@ -4,7 +4,12 @@
 // Both tets of a face take the sign of each of its edges from the same numbers, so that no ray leaks between tets, and
 // each enters the tet behind a face where it left the one before. GlMeshWalk (projection/gl_mesh_walk.h) describes the
 // buffers.
-uniform usamplerBuffer tets, points, open_faces;
+uniform usamplerBuffer tets;       // the corners' numbers, combined by ^, and hidden_tet
+uniform usamplerBuffer neighbors;  // tets behind the faces opposite to the corners, by ascending number of these
+uniform usamplerBuffer points;     // place in steps of `place_step`, scalar
+uniform usamplerBuffer open_faces;
+
+uniform double place_step;
 
 uniform dvec3 view_axes[3];      // unit vectors to the right, up and forward, in world space
 uniform dvec3 mesh_center;       // from the eye, along these axes
@@ -13,10 +18,10 @@ uniform double pixel_size;       // at depth 1, or of parallel rays
 uniform dvec3 ray_perturbation;  // pixels: moves rays along faces to one side, equal for all tets
 
 const uint no_tet = 0xffffffffu;
-const uint hidden_tet = 0x80000000u;  // marks, in the first corner of a tet, that it shows nothing
+const uint hidden_tet = 0x80000000u;  // marks a tet that shows nothing
 
 // The ray's axes: a point p of the mesh has the place (dot(p, across_x), dot(p, across_y)) - ray_place.
-dvec3 across_x, across_y;
+dvec3 across_x, across_y, along;
 dvec2 ray_place;
 double length_per_depth;  // world units
 
@@ -39,6 +44,9 @@ void aim(vec2 window) {
     length_per_depth = sqrt(1.0LF + dot(from_middle, from_middle));
 #endif
 #endif
+    across_x *= place_step;
+    across_y *= place_step;
+    along = place_step * view_axes[2];
 }
 
 // A corner of a face, as seen along the ray.
@@ -49,13 +57,12 @@ struct Corner {
 };
 
 Corner see(uint point) {
-    vec4 high = uintBitsToFloat(texelFetch(points, int(2u * point)));
-    vec4 low = uintBitsToFloat(texelFetch(points, int(2u * point + 1u)));
-    dvec4 p = dvec4(high) + dvec4(low);
+    uvec4 words = texelFetch(points, int(point));
+    dvec3 p = dvec3(ivec3(words.xyz));
     precise double x = p.x * across_x.x + p.y * across_x.y + p.z * across_x.z - ray_place.x;
     precise double y = p.x * across_y.x + p.y * across_y.y + p.z * across_y.z - ray_place.y;
-    precise double depth = dot(p.xyz, view_axes[2]);
-    return Corner(dvec2(x, y), depth, p.w, point);
+    precise double depth = p.x * along.x + p.y * along.y + p.z * along.z;
+    return Corner(dvec2(x, y), depth, double(uintBitsToFloat(words.w)), point);
 }
 
 // Returns twice the area of the triangle of the ray and the edge from a to b: exactly minus that from b to a.
@@ -103,8 +110,8 @@ bool enters(Front front) {
 // Moves the ray through a tet: makes `front` the face by which it leaves, and returns the tet behind that face. The
 // fourth corner, top, takes the place of the corner that is left behind: the ray leaves between the two corners for
 // which the side of the edge to the top turns from right to left.
-uint step_through(uvec4 corners, uvec4 behind, inout Front front) {
-    Corner top = see(corners.x ^ corners.y ^ corners.z ^ corners.w ^ front.a.point ^ front.b.point ^ front.c.point);
+uint step_through(uint tet, uint corners, inout Front front) {
+    Corner top = see(corners ^ front.a.point ^ front.b.point ^ front.c.point);
     dvec3 to_top = dvec3(area_of(front.a, top), area_of(front.b, top), area_of(front.c, top));
     bool left_a = is_left(to_top.x, front.a, top), left_b = is_left(to_top.y, front.b, top),
          left_c = is_left(to_top.z, front.c, top);
@@ -122,6 +129,8 @@ uint step_through(uvec4 corners, uvec4 behind, inout Front front) {
         front.b = top;
         front.areas.xy = dvec2(to_top.x, -to_top.z);
     }
-    return corners.x == left_behind ? behind.x : corners.y == left_behind ? behind.y
-         : corners.z == left_behind ? behind.z : behind.w;
+    uint below = uint(front.a.point < left_behind) + uint(front.b.point < left_behind) +
+                 uint(front.c.point < left_behind);
+    uvec4 behind = texelFetch(neighbors, int(tet));
+    return below == 0u ? behind.x : below == 1u ? behind.y : below == 2u ? behind.z : behind.w;
 }

@@ -2,13 +2,13 @@
 // Draws a frame of a mesh:
 //   1. List the open faces that rays of each tile may enter, on all cores.
 //   2. Dispatch projection/walk.comp, a workgroup a tile, until no ray is unfinished.
-// The mesh is uploaded once, in the plan's units and relative to its center. All buffers of texels
-// have four integers a texel, into which floats are stored by their bits:
-//   tets        2 i: corners of tet i, the first with hidden_tet if it shows nothing;
-//               2 i + 1: tets behind the faces opposite to the corners
-//   points      2 i: place and normalised scalar; 2 i + 1: what float32 lost of them
-//   open faces  corners, counter-clockwise seen from outside, and the tet
-//   tiles       EntryTiles::Tile
+// The mesh is uploaded once, as texels of integers, into which floats are stored by their bits:
+//   tets         the corners' numbers, combined by exclusive or: with three corners of a tet,
+//                it tells the fourth; hidden_tet if it shows nothing
+//   neighbors    tets behind the faces opposite to the corners, by ascending number of these
+//   points       place from the mesh's center, in steps of place_step_, and normalised scalar
+//   open faces   corners, counter-clockwise seen from outside, and the tet
+//   tiles        EntryTiles::Tile
 #include "projection/gl_mesh_walk.h"
 
 #include <glad/gl.h>
@@ -33,33 +33,26 @@ constexpr std::uint32_t hidden_tet = 0x80000000u;
 // invocation together after 65535 rounds, end none.
 constexpr int most_rounds = 4096;
 
-enum TextureUnit : unsigned {
-    tets_unit = 4,  // behind those of GlProjectTables
-    points_unit,
-    open_faces_unit,
-    tiles_unit,
-    listed_faces_unit
-};
+constexpr unsigned mesh_unit = 4;  // and those after it; behind those of GlProjectTables
 
 using Texel = std::array<std::uint32_t, 4>;
 
-// Splits four doubles into floats and what these lose.
-void write_doubles(const std::array<double, 4>& values, Texel& high, Texel& low) {
-    for (std::size_t i = 0; i < 4; ++i) {
-        const auto rounded = static_cast<float>(values[i]);
-        high[i] = std::bit_cast<std::uint32_t>(rounded);
-        low[i] = std::bit_cast<std::uint32_t>(static_cast<float>(values[i] - double{rounded}));
-    }
+// Returns the largest power of two in whose steps 31 bits reach all of `reach`.
+double step_for(const glm::dvec3& reach) {
+    const double distance = std::max({reach.x, reach.y, reach.z});
+    return std::exp2(std::ceil(std::log2(std::max(distance, 1e-300))) - 31);
 }
 
 gl::Defines defines_of(const ProjectPlan& plan, const GlProjectTables& tables) {
     gl::Defines defines = project_defines(plan, FragmentKind::plain);
+    defines.set("MOSTLY_THIN", 1);
     tables.set_defines(defines);
     return defines;
 }
 
-gl::TexelBuffer make_texels(const std::vector<Texel>& texels) {
-    gl::TexelBuffer buffer(4, texels.size());
+template <typename T>
+gl::TexelBuffer make_texels(const std::vector<T>& texels) {
+    gl::TexelBuffer buffer(sizeof(T) / sizeof(std::uint32_t), texels.size());
     buffer.write(std::span(texels));
     return buffer;
 }
@@ -148,6 +141,7 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
       width_(width),
       height_(height),
       center_(0.5 * mesh.mesh.bounds().min + 0.5 * mesh.mesh.bounds().max),
+      place_step_(step_for(mesh.mesh.bounds().max - center_)),
       tables_(transfer_function_, plan_),
       program_("projection/walk.comp", defines_of(plan_, tables_)) {
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -161,28 +155,38 @@ void GlMeshWalk::upload_mesh() {
     const Stage uploading("upload mesh");
     const TetMesh& mesh = mesh_.mesh;
     const auto& values = mesh_.scalar.values;
-    std::vector<Texel> texels(2 * mesh.tets().size());
+    std::vector<std::uint32_t> combined(mesh.tets().size());
+    std::vector<Texel> texels(mesh.tets().size());
     parallel_for(std::ssize(mesh.tets()), 4096, [&](std::int64_t index) {
         const auto i = static_cast<std::size_t>(index);
         const Tet& tet = mesh.tets()[i];
-        for (std::size_t corner = 0; corner < 4; ++corner) {
-            texels[2 * i][corner] = static_cast<std::uint32_t>(tet[corner]);
-            texels[2 * i + 1][corner] = static_cast<std::uint32_t>(mesh.neighbors()[i][corner]);
-        }
         const bool hidden = plan_.draw_transparent ? pieces_.met(values, tet).empty()
                                                    : pieces_.visible(values, tet).empty();
-        if (hidden) texels[2 * i][0] |= hidden_tet;
+        combined[i] = static_cast<std::uint32_t>(tet[0] ^ tet[1] ^ tet[2] ^ tet[3]) |
+                      (hidden ? hidden_tet : 0);
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            const auto below =
+                std::ranges::count_if(tet, [&](std::int32_t other) { return other < tet[corner]; });
+            texels[i][static_cast<std::size_t>(below)] =
+                static_cast<std::uint32_t>(mesh.neighbors()[i][corner]);
+        }
     });
-    tets_ = make_texels(texels);
+    tets_ = make_texels(combined);
+    neighbors_ = make_texels(texels);
 
     const double per_scalar = 1 / (plan_.range.hi - plan_.range.lo);
-    texels.resize(2 * mesh.points().size());
+    texels.resize(mesh.points().size());
     for (std::size_t i = 0; i < mesh.points().size(); ++i) {
-        const glm::dvec3 place = plan_.unit * (mesh.points()[i] - center_);
+        const glm::dvec3 place = (mesh.points()[i] - center_) / place_step_;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            // Points without tets may lie beyond the box.
+            const double steps = std::clamp(place[static_cast<int>(axis)], -0x1p31, 0x1p31 - 1);
+            texels[i][axis] = static_cast<std::uint32_t>(std::llrint(steps));
+        }
         // Tets with a scalar that is not finite are hidden, but rays pass them.
         const double scalar =
             std::isfinite(values[i]) ? (values[i] - plan_.range.lo) * per_scalar : 0;
-        write_doubles({place.x, place.y, place.z, scalar}, texels[2 * i], texels[2 * i + 1]);
+        texels[i][3] = std::bit_cast<std::uint32_t>(static_cast<float>(scalar));
     }
     points_ = make_texels(texels);
 
@@ -224,13 +228,15 @@ void GlMeshWalk::set_view(const View& view) {
     program_.set("ray_perturbation", ray_perturbation(view));
     program_.set("near_depth", static_cast<float>(plan_.near_depth - center.z));
     program_.set("rounds", most_rounds);
-    const std::array<std::pair<const char*, const gl::TexelBuffer*>, 5> buffers{
+    program_.set("place_step", place_step_ * plan_.unit);
+    const std::array<std::pair<const char*, const gl::TexelBuffer*>, 6> buffers{
         {{"tets", &tets_},
+         {"neighbors", &neighbors_},
          {"points", &points_},
          {"open_faces", &open_faces_},
          {"tiles", &tiles_},
          {"listed_faces", &listed_faces_}}};
-    unsigned unit = tets_unit;
+    unsigned unit = mesh_unit;
     for (const auto& [name, buffer] : buffers) {
         buffer->bind(unit);
         program_.set(name, static_cast<int>(unit++));

@@ -57,10 +57,11 @@ class GlMeshWalk : public ProjectRenderer {
 
     int width_, height_;
     glm::dvec3 center_;  // of the mesh's box
+    double place_step_;  // of points' places, in world units: a power of two
     GlProjectTables tables_;
     gl::Program program_;
     EntryTiles entries_;
-    gl::TexelBuffer tets_, points_, open_faces_, tiles_, listed_faces_;
+    gl::TexelBuffer tets_, neighbors_, points_, open_faces_, tiles_, listed_faces_;
     gl::Buffer pixels_, rays_, unfinished_;
     double list_ms_ = 0;
 };
