@@ -8,6 +8,23 @@
 // Optical depth above which callers split a part: up to it seen_share() is accurate to .01 / 255.
 const float largest_part_depth = 0.75;
 
+// One interval of the transfer function. Colour and extinction are linear in the share: the
+// position in the interval, 0 at its left end and 1 at its right.
+struct Interval {
+    float left_end, right_end;  // right_end of the last interval exceeds all scalars
+    float inverse_width;
+    float shown_beyond;         // extinction is 0 from left_end up to this scalar
+    vec4 left, change;          // colour (rgb) and extinction (a) at the left end, and from there to the right
+};
+
+Interval interval_at(int number) {
+    vec4 place = interval_place(number);
+    vec4 left = texelFetch(intervals, ivec2(number, 1), 0);
+    vec4 right = texelFetch(intervals, ivec2(number, 2), 0);
+    vec2 ends = texelFetch(intervals, ivec2(number, 3), 0).ba;
+    return Interval(place.x, ends.y, place.y, ends.x, left, right - left);
+}
+
 // A part of a ray whose scalar stays in one interval. `share` holds the coefficients of the share
 // as a cubic of t, which is 0 at the part's front and 1 at its back. `extinction` is the extinction
 // at share 0 times the part's length; `change` is what this product gains from share 0 to share 1.

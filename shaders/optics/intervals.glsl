@@ -25,20 +25,3 @@ vec4 interval_place(int interval) { return texelFetch(intervals, ivec2(interval,
 // Returns the position of a scalar in its interval: 0 at the left end, 1 at the right, clamped.
 // `place` comes from interval_place().
 float share_of_interval(vec4 place, float scalar) { return clamp((scalar - place.x) * place.y, 0.0, 1.0); }
-
-// One interval of the transfer function. Colour and extinction are linear in the share: the
-// position in the interval, 0 at its left end and 1 at its right.
-struct Interval {
-    float left_end, right_end;  // right_end of the last interval exceeds all scalars
-    float inverse_width;
-    float shown_beyond;         // extinction is 0 from left_end up to this scalar
-    vec4 left, change;          // colour (rgb) and extinction (a) at the left end, and from there to the right
-};
-
-Interval interval_at(int number) {
-    vec4 place = interval_place(number);
-    vec4 left = texelFetch(intervals, ivec2(number, 1), 0);
-    vec4 right = texelFetch(intervals, ivec2(number, 2), 0);
-    vec2 ends = texelFetch(intervals, ivec2(number, 3), 0).ba;
-    return Interval(place.x, ends.y, place.y, ends.x, left, right - left);
-}

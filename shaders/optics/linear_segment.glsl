@@ -4,9 +4,10 @@
 // Integrates a segment on which colour and extinction are linear. Opacity has a closed form. Colour
 // needs front_weight(): the weight of the front's colour (optics/segment_integral.h) for extinction
 // * length p at the front and q at the back. It is a polynomial if THIN is defined, else a lookup
-// in a table. MOSTLY_THIN: the polynomial where it holds (thin_depth). TABLE_COLORED: colours come from the transfer function, else from `single_color`.
+// in a table. TABLE_COLORED: colours come from the transfer function, else from `single_color`.
 #ifdef TABLE_COLORED
-float thin_front_weight(float p, float q) {
+#ifdef THIN
+float front_weight(float p, float q) {
     float c0 = q * (0.166777794 + q * (-0.025093103 + q * (0.002890381 - q * 0.000196459)));
     float c1 = 0.333037217 + q * (-0.074477034 + q * (0.011162302 - q * 0.000919007));
     float c2 = -0.065656503 + q * (0.015676728 - q * 0.001696676);
@@ -14,12 +15,10 @@ float thin_front_weight(float p, float q) {
     float c4 = -0.000561545;
     return c0 + p * (c1 + p * (c2 + p * (c3 + p * c4)));
 }
-#ifdef THIN
-float front_weight(float p, float q) { return thin_front_weight(p, q); }
 #else
 uniform sampler2D front_weights;
 
-float table_front_weight(float p, float q) {
+float front_weight(float p, float q) {
     p = min(p, 1e30);
     q = min(q, 1e30);
     // Nodes lie at equal steps of 1 - 1 / (1 + p) and 1 - 1 / sqrt(1 + q), which are rewritten as p
@@ -38,16 +37,6 @@ float table_front_weight(float p, float q) {
     return mixed.x + share.y * (mixed.y - mixed.x);
 #endif
 }
-#ifdef MOSTLY_THIN
-float front_weight(float p, float q) {
-    float weight = thin_front_weight(p, q);
-    // A loop, because software rasterisers skip loops but not branches.
-    for (bool thin = 0.5 * p + 0.5 * q <= 1.5; !thin; thin = true) weight = table_front_weight(p, q);
-    return weight;
-}
-#else
-float front_weight(float p, float q) { return table_front_weight(p, q); }
-#endif
 #endif
 
 // Returns the segment's associated colour and opacity. `front`, `back`: colour (rgb) and extinction

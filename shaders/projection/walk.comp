@@ -5,11 +5,13 @@
 //   for each open face by which the ray enters the mesh, nearest first:
 //       while there is a tet behind the face:
 //           move through the tet to the face by which the ray leaves it       (walk_mesh.glsl)
-//           composite the segment between both faces                          (tet_color.glsl)
+//           composite the segment between both faces, piece by piece          (tet_color.glsl)
 //
 // No tet needs to be in order, and meshes may have rings, gaps and hollows. A dispatch takes `rounds` steps of a ray at
 // most and keeps its state for the next one. A workgroup draws a tile of 8 x 8 pixels, for which the open faces are
-// listed that its rays may enter.
+// listed that its rays may enter. A piece ends at the tet's faces, at points of the transfer function (SOURCE_PARTS),
+// and at the near plane. Each takes a round of the one loop: software rasterisers skip no branches, and an inner loop
+// costs them more than a piece.
 layout(local_size_x = 64) in;
 
 #define SOURCE_CONSTANT 0
@@ -30,6 +32,10 @@ struct FragmentSegment {
 };
 FragmentSegment segment;
 FragmentSegment find_segment() { return segment; }
+#if SOURCE == SOURCE_PARTS
+OPTICS low_optics, high_optics;
+#include "projection/walk_pieces.glsl"
+#endif
 #include "projection/tet_color.glsl"
 
 // The ray of a pixel between two dispatches.
@@ -48,7 +54,7 @@ uniform usamplerBuffer listed_faces;  // numbers of open faces
 uniform ivec2 image_size;
 uniform bool begins;   // this is the first dispatch of the picture
 uniform int rounds;
-uniform float near_depth;  // from the mesh's center
+uniform double near_depth;  // from the mesh's center
 
 // Opacity above which nothing behind can be seen: it hides all but 1e-6 of it, or 2.6e-4 / 255.
 const float opaque = 0.999999;
@@ -63,7 +69,7 @@ uint find_entry(uvec2 list, inout Ray ray, out Front front) {
         uvec4 corners = texelFetch(open_faces, int(face));
         Front seen = front_of(corners.xyz);
         if (!enters(seen)) continue;
-        double depth = crossing_of(seen).x;
+        double depth = crossing_of(seen).depth;
         bool behind = ray.last_entry == no_tet || depth > ray.entry_depth ||
                       (depth == ray.entry_depth && face > ray.last_entry);
         if (!behind) continue;
@@ -77,6 +83,71 @@ uint find_entry(uvec2 list, inout Ray ray, out Front front) {
     ray.last_entry = found;
     ray.entry_depth = nearest;
     return tet;
+}
+
+// Walks from a face of the mesh or within it to the next exit, and composites the pieces on the way. Ends early if
+// nothing behind is seen, or at the first face after `left` rounds.
+void walk(inout uint tet, inout Front front, inout int left, inout vec4 color) {
+    // The ends of what is left of the segment in the tet, and the tet behind it.
+    Crossing from = crossing_of(front), to = from;
+    uint next = tet;
+    bool shown = false, through = true;  // through: nothing is left of it
+#if SOURCE == SOURCE_PARTS
+    take_interval(find_interval(clamp(from.scalar, 0.0, 1.0)));
+#endif
+    while (true) {
+        --left;
+        if (through) {
+            tet = next;
+            if (tet == no_tet || left <= 0 || color.a > opaque) return;
+            uint corners = texelFetch(tets, int(tet)).x;
+            shown = (corners & hidden_tet) == 0u;
+            next = step_through(tet, corners & ~hidden_tet, front);
+            to = crossing_of(front);
+            to.depth = max(to.depth, from.depth);
+        }
+        Crossing end = to;
+        through = true;
+#if SOURCE == SOURCE_PARTS
+        bool rising = to.scalar >= from.scalar;
+        float knot = rising ? interval_ends.y : interval_ends.x;
+        bool to_knot = rising ? to.scalar >= knot : to.scalar < knot;
+        if (to_knot) {
+            end = between(from, to, (knot - from.scalar) / (to.scalar - from.scalar));
+            end.scalar = knot;
+            through = false;
+        }
+#endif
+        bool hidden = from.depth < near_depth;  // in front of the near plane
+        if (hidden && end.depth > near_depth) {
+            end = between(from, end, float((near_depth - from.depth) / (end.depth - from.depth)));
+            end.depth = near_depth;
+            through = false;
+#if SOURCE == SOURCE_PARTS
+            to_knot = false;
+#endif
+        }
+        segment = FragmentSegment(from.scalar, end.scalar, float(end.depth - from.depth) * length_per_depth);
+#if SOURCE == SOURCE_PARTS
+        segment.front = share_of_interval(segment.front);
+        segment.back = share_of_interval(segment.back);
+#ifdef TABLE_COLORED
+        vec2 extinctions = low_optics.a + vec2(segment.front, segment.back) * (high_optics.a - low_optics.a);
+        float thin = thin_share(extinctions.x * segment.world_length, extinctions.y * segment.world_length);
+        if (thin < 1.0 && shown && !hidden) {
+            end = between(from, end, thin);
+            segment.world_length *= thin;
+            segment.back = mix(segment.front, segment.back, thin);
+            through = to_knot = false;
+        }
+#endif
+#endif
+        if (shown && !hidden) color += (1.0 - color.a) * tet_color();
+        from = end;
+#if SOURCE == SOURCE_PARTS
+        if (to_knot) take_interval(interval + (rising ? 1 : -1));
+#endif
+    }
 }
 
 uvec2 pixel_in_tile(uint i) {  // Morton order
@@ -96,44 +167,17 @@ void main() {
     vec4 color = vec4(0.0);
     Ray ray = Ray(uvec4(0u, 0u, 0u, no_tet), no_tet, 1u, 0.0LF);
     Front front;
-    dvec2 in_crossing;
     if (!begins) {
         ray = rays[number];
         color = pixels[place];
-        if (ray.front.w != no_tet) {
-            front = front_of(ray.front.xyz);
-            in_crossing = crossing_of(front);
-        }
+        if (ray.front.w != no_tet) front = front_of(ray.front.xyz);
     }
     uint tet = ray.front.w;
     int left = rounds;
     while (left > 0 && (tet != no_tet || ray.entries_left > 0u)) {
         --left;
-        if (tet == no_tet) {
-            tet = find_entry(tile.zw, ray, front);
-            in_crossing = crossing_of(front);
-        }
-        // The ray goes on to the next segment that may show something.
-        bool shown = false;
-        while (tet != no_tet && left > 0 && !shown) {
-            --left;
-            uint corners = texelFetch(tets, int(tet)).x;
-            shown = (corners & hidden_tet) == 0u;
-            tet = step_through(tet, corners & ~hidden_tet, front);
-            dvec2 out_crossing = crossing_of(front);
-            out_crossing.x = max(out_crossing.x, in_crossing.x);
-            double start = max(in_crossing.x, double(near_depth)), length = out_crossing.x - start;
-            shown = shown && length > 0.0LF;
-            double whole = out_crossing.x - in_crossing.x;
-            double front_scalar = in_crossing.y;
-            if (start > in_crossing.x)
-                front_scalar += (out_crossing.y - in_crossing.y) * ((start - in_crossing.x) / whole);
-            segment = FragmentSegment(float(front_scalar), float(out_crossing.y), float(length * length_per_depth));
-            in_crossing = out_crossing;
-        }
-        for (bool added = !shown; !added; added = true) {  // software rasterisers skip loops, but no branches
-            color += (1.0 - color.a) * tet_color();
-        }
+        if (tet == no_tet) tet = find_entry(tile.zw, ray, front);
+        walk(tet, front, left, color);
         if (color.a > opaque) {
             tet = no_tet;
             ray.entries_left = 0u;

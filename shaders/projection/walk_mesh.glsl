@@ -23,7 +23,7 @@ const uint hidden_tet = 0x80000000u;  // marks a tet that shows nothing
 // The ray's axes: a point p of the mesh has the place (dot(p, across_x), dot(p, across_y)) - ray_place.
 dvec3 across_x, across_y, along;
 dvec2 ray_place;
-double length_per_depth;  // world units
+float length_per_depth;  // world units
 
 void aim(vec2 window) {
     dvec2 from_middle = (dvec2(window) - image_middle) * pixel_size;
@@ -32,16 +32,16 @@ void aim(vec2 window) {
     across_x = view_axes[0];
     across_y = view_axes[1];
     ray_place = from_middle - mesh_center.xy;
-    length_per_depth = 1.0LF;
+    length_per_depth = 1.0;
 #else
     from_middle += (ray_perturbation.xy - ray_perturbation.z * from_middle) * pixel_size;
     across_x = view_axes[0] - from_middle.x * view_axes[2];
     across_y = view_axes[1] - from_middle.y * view_axes[2];
     ray_place = from_middle * mesh_center.z - mesh_center.xy;
 #ifdef THICKNESS_DZ
-    length_per_depth = 1.0LF;
+    length_per_depth = 1.0;
 #else
-    length_per_depth = sqrt(1.0LF + dot(from_middle, from_middle));
+    length_per_depth = float(sqrt(1.0LF + dot(from_middle, from_middle)));
 #endif
 #endif
     across_x *= place_step;
@@ -52,7 +52,8 @@ void aim(vec2 window) {
 // A corner of a face, as seen along the ray.
 struct Corner {
     dvec2 place;
-    double depth, scalar;  // depth: from the mesh's center
+    double depth;  // from the mesh's center
+    float scalar;
     uint point;
 };
 
@@ -62,7 +63,7 @@ Corner see(uint point) {
     precise double x = p.x * across_x.x + p.y * across_x.y + p.z * across_x.z - ray_place.x;
     precise double y = p.x * across_y.x + p.y * across_y.y + p.z * across_y.z - ray_place.y;
     precise double depth = p.x * along.x + p.y * along.y + p.z * along.z;
-    return Corner(dvec2(x, y), depth, double(uintBitsToFloat(words.w)), point);
+    return Corner(dvec2(x, y), depth, uintBitsToFloat(words.w), point);
 }
 
 // Returns twice the area of the triangle of the ray and the edge from a to b: exactly minus that from b to a.
@@ -88,13 +89,25 @@ struct Front {
     dvec3 areas;
 };
 
-// The depth and scalar at which the ray crosses a face.
-dvec2 crossing_of(Front front) {
-    double sum = front.areas.x + front.areas.y + front.areas.z;
-    dvec2 weights = sum > 0.0LF ? front.areas.yz / sum : dvec2(1.0LF, 0.0LF);  // of a and b
-    dvec2 c = dvec2(front.c.depth, front.c.scalar);
-    return c + weights.x * (dvec2(front.a.depth, front.a.scalar) - c) +
-           weights.y * (dvec2(front.b.depth, front.b.scalar) - c);
+// A place on the ray.
+struct Crossing {
+    double depth;  // from the mesh's center
+    float scalar;
+};
+
+Crossing between(Crossing from, Crossing to, float share) {
+    share = clamp(share, 0.0, 1.0);
+    return Crossing(from.depth + double(share) * (to.depth - from.depth),
+                    from.scalar + share * (to.scalar - from.scalar));
+}
+
+// Returns where the ray crosses a face. Both tets of the face take the same result, so that weights may be float.
+Crossing crossing_of(Front front) {
+    float sum = float(front.areas.x + front.areas.y + front.areas.z);
+    vec2 weights = sum > 0.0 ? vec2(front.areas.yz) / sum : vec2(1.0, 0.0);  // of a and b
+    vec2 depths = vec2(front.a.depth - front.c.depth, front.b.depth - front.c.depth);
+    vec2 scalars = vec2(front.a.scalar, front.b.scalar) - front.c.scalar;
+    return Crossing(front.c.depth + double(dot(weights, depths)), front.c.scalar + dot(weights, scalars));
 }
 
 Front front_of(uvec3 corners) {

@@ -45,7 +45,6 @@ double step_for(const glm::dvec3& reach) {
 
 gl::Defines defines_of(const ProjectPlan& plan, const GlProjectTables& tables) {
     gl::Defines defines = project_defines(plan, FragmentKind::plain);
-    defines.set("MOSTLY_THIN", 1);
     tables.set_defines(defines);
     return defines;
 }
@@ -226,7 +225,7 @@ void GlMeshWalk::set_view(const View& view) {
     program_.set("image_size", glm::ivec2(view.width, view.height));
     program_.set("pixel_size", in_units.pixel);
     program_.set("ray_perturbation", ray_perturbation(view));
-    program_.set("near_depth", static_cast<float>(plan_.near_depth - center.z));
+    program_.set("near_depth", plan_.near_depth - center.z);
     program_.set("rounds", most_rounds);
     program_.set("place_step", place_step_ * plan_.unit);
     const std::array<std::pair<const char*, const gl::TexelBuffer*>, 6> buffers{

@@ -133,13 +133,15 @@ GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, cons
             upload(*table_);
             break;
         case SegmentSource::parts:
-            if (!plan.single_color) {
+            // A walk cuts segments to pieces that need no table.
+            if (plan.walk) {
+                intervals_.emplace(transfer_function, plan.range, nullptr, false, 0);
+            } else if (!plan.single_color) {
                 constexpr int nodes = FrontWeightTable::nodes;
                 texture_ = gl::Texture::make_2d(gl::TextureFormat::r32f, nodes, nodes);
                 texture_->upload({0, 0, 0, nodes, nodes, 1},
                                  std::span<const float>(FrontWeightTable::get().texels()));
             }
-            if (plan.walk) intervals_.emplace(transfer_function, plan.range, nullptr, false, 0);
             break;
         case SegmentSource::cut_table:
             intervals_.emplace(transfer_function, plan.range, plan.table.knot_table().get(),
@@ -178,16 +180,17 @@ void GlProjectTables::upload(const UniformTable& table) {
 }
 
 void GlProjectTables::set_defines(gl::Defines& defines) const {
-    // A walk has no cell fragments: it cuts each segment into its pieces.
-    const bool parts = plan_.source == SegmentSource::parts;
-    defines.set("SOURCE",
-                static_cast<int>(parts && plan_.walk ? SegmentSource::analytic : plan_.source));
+    defines.set("SOURCE", static_cast<int>(plan_.source));
     if (!plan_.single_color) defines.set("TABLE_COLORED", 1);
     if (plan_.table_filtered) defines.set("TABLE_FILTERED", 1);
-    if (parts) defines.set("FRONT_WEIGHT_NODES", FrontWeightTable::nodes);
-    if (parts && !plan_.walk) {
-        defines.set("CUT", 1);
+    if (plan_.source == SegmentSource::parts) {
         defines.set("OPTICS", plan_.single_color ? "float" : "vec4");
+        if (plan_.walk) {
+            defines.set("THIN", 1);
+        } else {
+            defines.set("CUT", 1);
+            defines.set("FRONT_WEIGHT_NODES", FrontWeightTable::nodes);
+        }
     }
     // At most one of `intervals_` and `table_` is set.
     if (intervals_) {
