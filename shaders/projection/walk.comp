@@ -29,6 +29,10 @@ uniform vec4 constant_optics;  // colour, extinction
 struct FragmentSegment {
     float front, back;  // scalars, normalised
     float world_length;
+#ifdef LIT
+    vec3 front_gradient, back_gradient;
+    vec3 to_eye;
+#endif
 };
 FragmentSegment segment;
 FragmentSegment find_segment() { return segment; }
@@ -88,46 +92,47 @@ uint find_entry(uvec2 list, inout Ray ray, out Front front) {
 // Walks from a face of the mesh or within it to the next exit, and composites the pieces on the way. Ends early if
 // nothing behind is seen, or at the first face after `left` rounds.
 void walk(inout uint tet, inout Front front, inout int left, inout vec4 color) {
-    // The ends of what is left of the segment in the tet, and the tet behind it.
-    Crossing from = crossing_of(front), to = from;
-    uint next = tet;
-    bool shown = false, through = true;  // through: nothing is left of it
+    Passage passage;  // `from` moves on from piece to piece
+    passage.behind = tet;
+    passage.from = crossing_of(front);
+    bool shown = false, through = true;  // through: the ray is at the end of the passage
 #if SOURCE == SOURCE_PARTS
-    take_interval(find_interval(clamp(from.scalar, 0.0, 1.0)));
+    take_interval(find_interval(clamp(passage.from.scalar, 0.0, 1.0)));
 #endif
     while (true) {
         --left;
         if (through) {
-            tet = next;
+            tet = passage.behind;
             if (tet == no_tet || left <= 0 || color.a > opaque) return;
-            uint corners = texelFetch(tets, int(tet)).x;
-            shown = (corners & hidden_tet) == 0u;
-            next = step_through(tet, corners & ~hidden_tet, front);
-            to = crossing_of(front);
-            to.depth = max(to.depth, from.depth);
+            uint combined = texelFetch(tets, int(tet)).x;
+            shown = (combined & hidden_tet) == 0u;
+            passage = pass_through(tet, combined & ~hidden_tet, passage.from, front);
+#if SOURCE == SOURCE_PARTS && defined(COPIES)
+            take_interval(find_interval(clamp(passage.from.scalar, 0.0, 1.0)));
+#endif
         }
-        Crossing end = to;
-        through = true;
+        Crossing from = passage.from, end = passage.to;
+        bool hidden = from.depth < near_depth;  // in front of the near plane
+        int next_interval = 0;  // relative to this one
 #if SOURCE == SOURCE_PARTS
-        bool rising = to.scalar >= from.scalar;
+        bool rising = end.scalar >= from.scalar;
         float knot = rising ? interval_ends.y : interval_ends.x;
-        bool to_knot = rising ? to.scalar >= knot : to.scalar < knot;
-        if (to_knot) {
-            end = between(from, to, (knot - from.scalar) / (to.scalar - from.scalar));
+        if (rising ? end.scalar >= knot : end.scalar < knot) {
+            end = between(from, end, (knot - from.scalar) / (end.scalar - from.scalar));
             end.scalar = knot;
-            through = false;
+            next_interval = rising ? 1 : -1;
         }
 #endif
-        bool hidden = from.depth < near_depth;  // in front of the near plane
+        through = next_interval == 0;
         if (hidden && end.depth > near_depth) {
             end = between(from, end, float((near_depth - from.depth) / (end.depth - from.depth)));
             end.depth = near_depth;
+            next_interval = 0;
             through = false;
-#if SOURCE == SOURCE_PARTS
-            to_knot = false;
-#endif
         }
-        segment = FragmentSegment(from.scalar, end.scalar, float(end.depth - from.depth) * length_per_depth);
+        segment.front = from.scalar;
+        segment.back = end.scalar;
+        segment.world_length = float(end.depth - from.depth) * length_per_depth;
 #if SOURCE == SOURCE_PARTS
         segment.front = share_of_interval(segment.front);
         segment.back = share_of_interval(segment.back);
@@ -138,14 +143,20 @@ void walk(inout uint tet, inout Front front, inout int left, inout vec4 color) {
             end = between(from, end, thin);
             segment.world_length *= thin;
             segment.back = mix(segment.front, segment.back, thin);
-            through = to_knot = false;
+            next_interval = 0;
+            through = false;
         }
 #endif
 #endif
+#ifdef LIT
+        segment.front_gradient = clamp(passage.gradient_scale * from.gradient, -1.0, 1.0);
+        segment.back_gradient = clamp(passage.gradient_scale * end.gradient, -1.0, 1.0);
+        segment.to_eye = to_eye;
+#endif
         if (shown && !hidden) color += (1.0 - color.a) * tet_color();
-        from = end;
+        passage.from = end;
 #if SOURCE == SOURCE_PARTS
-        if (to_knot) take_interval(interval + (rising ? 1 : -1));
+        if (next_interval != 0) take_interval(interval + next_interval);
 #endif
     }
 }

@@ -7,6 +7,12 @@
 uniform usamplerBuffer tets;       // the corners' numbers, combined by ^, and hidden_tet
 uniform usamplerBuffer neighbors;  // tets behind the faces opposite to the corners, by ascending number of these
 uniform usamplerBuffer points;     // place in steps of `place_step`, scalar
+#ifdef COPIES
+uniform usamplerBuffer corners;  // a tet's corners with values of its own, in the same order
+#endif
+#ifdef LIT
+uniform usamplerBuffer gradients;  // of points
+#endif
 uniform usamplerBuffer open_faces;
 
 uniform double place_step;
@@ -24,6 +30,9 @@ const uint hidden_tet = 0x80000000u;  // marks a tet that shows nothing
 dvec3 across_x, across_y, along;
 dvec2 ray_place;
 float length_per_depth;  // world units
+#ifdef LIT
+vec3 to_eye;  // unit vector
+#endif
 
 void aim(vec2 window) {
     dvec2 from_middle = (dvec2(window) - image_middle) * pixel_size;
@@ -44,6 +53,11 @@ void aim(vec2 window) {
     length_per_depth = float(sqrt(1.0LF + dot(from_middle, from_middle)));
 #endif
 #endif
+#if defined(LIT) && defined(ORTHOGRAPHIC)
+    to_eye = vec3(-view_axes[2]);
+#elif defined(LIT)
+    to_eye = vec3(-normalize(view_axes[2] + from_middle.x * view_axes[0] + from_middle.y * view_axes[1]));
+#endif
     across_x *= place_step;
     across_y *= place_step;
     along = place_step * view_axes[2];
@@ -54,8 +68,15 @@ struct Corner {
     dvec2 place;
     double depth;  // from the mesh's center
     float scalar;
+#ifdef LIT
+    vec3 gradient;
+#endif
     uint point;
 };
+
+#ifdef LIT
+vec3 gradient_at(uint point) { return uintBitsToFloat(texelFetch(gradients, int(point)).xyz); }
+#endif
 
 Corner see(uint point) {
     uvec4 words = texelFetch(points, int(point));
@@ -63,7 +84,11 @@ Corner see(uint point) {
     precise double x = p.x * across_x.x + p.y * across_x.y + p.z * across_x.z - ray_place.x;
     precise double y = p.x * across_y.x + p.y * across_y.y + p.z * across_y.z - ray_place.y;
     precise double depth = p.x * along.x + p.y * along.y + p.z * along.z;
+#ifdef LIT
+    return Corner(dvec2(x, y), depth, uintBitsToFloat(words.w), gradient_at(point), point);
+#else
     return Corner(dvec2(x, y), depth, uintBitsToFloat(words.w), point);
+#endif
 }
 
 // Returns twice the area of the triangle of the ray and the edge from a to b: exactly minus that from b to a.
@@ -93,12 +118,19 @@ struct Front {
 struct Crossing {
     double depth;  // from the mesh's center
     float scalar;
+#ifdef LIT
+    vec3 gradient;
+#endif
 };
 
 Crossing between(Crossing from, Crossing to, float share) {
     share = clamp(share, 0.0, 1.0);
-    return Crossing(from.depth + double(share) * (to.depth - from.depth),
-                    from.scalar + share * (to.scalar - from.scalar));
+    from.depth += double(share) * (to.depth - from.depth);
+    from.scalar += share * (to.scalar - from.scalar);
+#ifdef LIT
+    from.gradient += share * (to.gradient - from.gradient);
+#endif
+    return from;
 }
 
 // Returns where the ray crosses a face. Both tets of the face take the same result, so that weights may be float.
@@ -107,7 +139,14 @@ Crossing crossing_of(Front front) {
     vec2 weights = sum > 0.0 ? vec2(front.areas.yz) / sum : vec2(1.0, 0.0);  // of a and b
     vec2 depths = vec2(front.a.depth - front.c.depth, front.b.depth - front.c.depth);
     vec2 scalars = vec2(front.a.scalar, front.b.scalar) - front.c.scalar;
-    return Crossing(front.c.depth + double(dot(weights, depths)), front.c.scalar + dot(weights, scalars));
+    Crossing crossing;
+    crossing.depth = front.c.depth + double(dot(weights, depths));
+    crossing.scalar = front.c.scalar + dot(weights, scalars);
+#ifdef LIT
+    crossing.gradient = front.c.gradient + weights.x * (front.a.gradient - front.c.gradient) +
+                        weights.y * (front.b.gradient - front.c.gradient);
+#endif
+    return crossing;
 }
 
 Front front_of(uvec3 corners) {
@@ -120,11 +159,64 @@ bool enters(Front front) {
            is_left(front.areas.z, front.c, front.a);
 }
 
-// Moves the ray through a tet: makes `front` the face by which it leaves, and returns the tet behind that face. The
-// fourth corner, top, takes the place of the corner that is left behind: the ray leaves between the two corners for
-// which the side of the edge to the top turns from right to left.
-uint step_through(uint tet, uint corners, inout Front front) {
-    Corner top = see(corners ^ front.a.point ^ front.b.point ^ front.c.point);
+// Returns the entry of a list that belongs to a point: entries belong to four corners by ascending number.
+uint entry_of(uint point, uvec4 corners, uvec4 list) {
+    uvec4 less = uvec4(lessThan(corners, uvec4(point)));
+    uint below = less.x + less.y + less.z + less.w;
+    return below == 0u ? list.x : below == 1u ? list.y : below == 2u ? list.z : list.w;
+}
+
+#ifdef COPIES
+void take_values(inout Corner corner, uvec4 corners_of_tet, uvec4 own) {
+    uint point = entry_of(corner.point, corners_of_tet, own);
+    corner.scalar = uintBitsToFloat(texelFetch(points, int(point)).w);
+#ifdef LIT
+    corner.gradient = gradient_at(point);
+#endif
+}
+#endif
+
+#ifdef LIT
+float largest_part(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
+
+// Returns the factor for all gradients in a tet: StoredGradients::scale_of_tet() (projection/tet_projector.h).
+float gradient_scale(Front front, Corner top) {
+    float largest = max(max(largest_part(front.a.gradient), largest_part(front.b.gradient)),
+                        max(largest_part(front.c.gradient), largest_part(top.gradient)));
+    return largest > 0.5 ? 0.5 / largest : 1.0;
+}
+#endif
+
+// A tet and the ray's segment in it.
+struct Passage {
+    uint behind;  // the tet behind the face by which the ray leaves, or no_tet
+    Crossing from, to;
+#ifdef LIT
+    float gradient_scale;
+#endif
+};
+
+// Moves the ray through a tet: makes `front` the face by which it leaves. `entered`: where it enters. The fourth corner,
+// top, takes the place of the corner that is left behind: the ray leaves between the two corners for which the side of
+// the edge to the top turns from right to left.
+Passage pass_through(uint tet, uint combined, Crossing entered, inout Front front) {
+    Passage passage;
+    Corner top = see(combined ^ front.a.point ^ front.b.point ^ front.c.point);
+    uvec4 corners_of_tet = uvec4(front.a.point, front.b.point, front.c.point, top.point);
+#ifdef COPIES
+    uvec4 own = texelFetch(corners, int(tet));
+    take_values(front.a, corners_of_tet, own);
+    take_values(front.b, corners_of_tet, own);
+    take_values(front.c, corners_of_tet, own);
+    take_values(top, corners_of_tet, own);
+    double depth = entered.depth;
+    entered = crossing_of(front);
+    entered.depth = depth;
+#endif
+    passage.from = entered;
+#ifdef LIT
+    passage.gradient_scale = gradient_scale(front, top);
+#endif
     dvec3 to_top = dvec3(area_of(front.a, top), area_of(front.b, top), area_of(front.c, top));
     bool left_a = is_left(to_top.x, front.a, top), left_b = is_left(to_top.y, front.b, top),
          left_c = is_left(to_top.z, front.c, top);
@@ -142,8 +234,8 @@ uint step_through(uint tet, uint corners, inout Front front) {
         front.b = top;
         front.areas.xy = dvec2(to_top.x, -to_top.z);
     }
-    uint below = uint(front.a.point < left_behind) + uint(front.b.point < left_behind) +
-                 uint(front.c.point < left_behind);
-    uvec4 behind = texelFetch(neighbors, int(tet));
-    return below == 0u ? behind.x : below == 1u ? behind.y : below == 2u ? behind.z : behind.w;
+    passage.behind = entry_of(left_behind, corners_of_tet, texelFetch(neighbors, int(tet)));
+    passage.to = crossing_of(front);
+    passage.to.depth = max(passage.to.depth, entered.depth);
+    return passage;
 }

@@ -3,10 +3,12 @@
 //   1. List the open faces that rays of each tile may enter, on all cores.
 //   2. Dispatch projection/walk.comp, a workgroup a tile, until no ray is unfinished.
 // The mesh is uploaded once, as texels of integers, into which floats are stored by their bits:
-//   tets         the corners' numbers, combined by exclusive or: with three corners of a tet,
-//                it tells the fourth; hidden_tet if it shows nothing
-//   neighbors    tets behind the faces opposite to the corners, by ascending number of these
+//   tets         the corners' places (TetMesh::places()), combined by exclusive or: with three
+//                corners of a tet, it tells the fourth; hidden_tet if it shows nothing
+//   neighbors    tets behind the faces opposite to the corners, by ascending place of these
+//   corners      if points have copies: the corners themselves, by ascending place
 //   points       place from the mesh's center, in steps of place_step_, and normalised scalar
+//   gradients    if lit: StoredGradients
 //   open faces   corners, counter-clockwise seen from outside, and the tet
 //   tiles        EntryTiles::Tile
 #include "projection/gl_mesh_walk.h"
@@ -15,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -43,12 +46,6 @@ double step_for(const glm::dvec3& reach) {
     return std::exp2(std::ceil(std::log2(std::max(distance, 1e-300))) - 31);
 }
 
-gl::Defines defines_of(const ProjectPlan& plan, const GlProjectTables& tables) {
-    gl::Defines defines = project_defines(plan, FragmentKind::plain);
-    tables.set_defines(defines);
-    return defines;
-}
-
 template <typename T>
 gl::TexelBuffer make_texels(const std::vector<T>& texels) {
     gl::TexelBuffer buffer(sizeof(T) / sizeof(std::uint32_t), texels.size());
@@ -63,6 +60,13 @@ void reserve(gl::TexelBuffer& buffer, int components, std::size_t texels) {
 }
 
 }  // namespace
+
+gl::Defines walk_defines(const ProjectPlan& plan, const GlProjectTables& tables, bool copies) {
+    gl::Defines defines = project_defines(plan, FragmentKind::plain);
+    if (copies) defines.set("COPIES", 1);
+    tables.set_defines(defines);
+    return defines;
+}
 
 // Bounds each face's tiles: the pixels around its corners, or all if it crosses the plane of the
 // eye. Faces that rays surely leave by get none.
@@ -142,7 +146,9 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
       center_(0.5 * mesh.mesh.bounds().min + 0.5 * mesh.mesh.bounds().max),
       place_step_(step_for(mesh.mesh.bounds().max - center_)),
       tables_(transfer_function_, plan_),
-      program_("projection/walk.comp", defines_of(plan_, tables_)) {
+      program_("projection/walk.comp", walk_defines(plan_, tables_, mesh.mesh.has_copies())) {
+    if (plan_.lighting)
+        gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     pixels_ = gl::Buffer(pixels * 4 * sizeof(float));
     pixels_.clear();
@@ -155,26 +161,32 @@ void GlMeshWalk::upload_mesh() {
     const TetMesh& mesh = mesh_.mesh;
     const auto& values = mesh_.scalar.values;
     std::vector<std::uint32_t> combined(mesh.tets().size());
-    std::vector<Texel> texels(mesh.tets().size());
+    std::vector<Texel> neighbors(mesh.tets().size()), corners;
+    if (mesh.has_copies()) corners.resize(mesh.tets().size());
+    std::atomic<std::int64_t> shown = 0;
     parallel_for(std::ssize(mesh.tets()), 4096, [&](std::int64_t index) {
         const auto i = static_cast<std::size_t>(index);
         const Tet& tet = mesh.tets()[i];
+        const Tet places = mesh.place(tet);
         const bool hidden = plan_.draw_transparent ? pieces_.met(values, tet).empty()
                                                    : pieces_.visible(values, tet).empty();
-        combined[i] = static_cast<std::uint32_t>(tet[0] ^ tet[1] ^ tet[2] ^ tet[3]) |
+        if (!hidden) ++shown;
+        combined[i] = static_cast<std::uint32_t>(places[0] ^ places[1] ^ places[2] ^ places[3]) |
                       (hidden ? hidden_tet : 0);
         for (std::size_t corner = 0; corner < 4; ++corner) {
-            const auto below =
-                std::ranges::count_if(tet, [&](std::int32_t other) { return other < tet[corner]; });
-            texels[i][static_cast<std::size_t>(below)] =
-                static_cast<std::uint32_t>(mesh.neighbors()[i][corner]);
+            const auto below = static_cast<std::size_t>(std::ranges::count_if(
+                places, [&](std::int32_t other) { return other < places[corner]; }));
+            neighbors[i][below] = static_cast<std::uint32_t>(mesh.neighbors()[i][corner]);
+            if (!corners.empty()) corners[i][below] = static_cast<std::uint32_t>(tet[corner]);
         }
     });
+    tets_drawn_ = shown;
     tets_ = make_texels(combined);
-    neighbors_ = make_texels(texels);
+    neighbors_ = make_texels(neighbors);
+    if (!corners.empty()) corners_ = make_texels(corners);
 
     const double per_scalar = 1 / (plan_.range.hi - plan_.range.lo);
-    texels.resize(mesh.points().size());
+    std::vector<Texel> texels(mesh.points().size());
     for (std::size_t i = 0; i < mesh.points().size(); ++i) {
         const glm::dvec3 place = (mesh.points()[i] - center_) / place_step_;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -188,14 +200,21 @@ void GlMeshWalk::upload_mesh() {
         texels[i][3] = std::bit_cast<std::uint32_t>(static_cast<float>(scalar));
     }
     points_ = make_texels(texels);
+    for (std::size_t i = 0; i < gradients_.at_points.size(); ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            texels[i][axis] =
+                std::bit_cast<std::uint32_t>(gradients_.at_points[i][static_cast<int>(axis)]);
+    }
+    if (plan_.lighting) gradient_texels_ = make_texels(texels);
 
     texels.resize(mesh.open_faces().size());
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const TetFace& face = mesh.open_faces()[i];
-        const auto corners = corners_of_face(mesh.tets()[static_cast<std::size_t>(face.tet)],
-                                             static_cast<std::size_t>(face.face));
+        const auto of_face =
+            corners_of_face(mesh.place(mesh.tets()[static_cast<std::size_t>(face.tet)]),
+                            static_cast<std::size_t>(face.face));
         for (std::size_t corner = 0; corner < 3; ++corner)
-            texels[i][corner] = static_cast<std::uint32_t>(corners[corner]);
+            texels[i][corner] = static_cast<std::uint32_t>(of_face[corner]);
         texels[i][3] = static_cast<std::uint32_t>(face.tet);
     }
     open_faces_ = make_texels(texels);
@@ -228,15 +247,18 @@ void GlMeshWalk::set_view(const View& view) {
     program_.set("near_depth", plan_.near_depth - center.z);
     program_.set("rounds", most_rounds);
     program_.set("place_step", place_step_ * plan_.unit);
-    const std::array<std::pair<const char*, const gl::TexelBuffer*>, 6> buffers{
-        {{"tets", &tets_},
-         {"neighbors", &neighbors_},
-         {"points", &points_},
-         {"open_faces", &open_faces_},
-         {"tiles", &tiles_},
-         {"listed_faces", &listed_faces_}}};
+    if (plan_.lighting) set_lit_view(*plan_.lighting, gradients_, plan_.most_bend, program_);
     unsigned unit = mesh_unit;
-    for (const auto& [name, buffer] : buffers) {
+    for (const auto& [name, buffer] :
+         std::initializer_list<std::pair<const char*, gl::TexelBuffer*>>{
+             {"tets", &tets_},
+             {"neighbors", &neighbors_},
+             {"corners", &corners_},
+             {"points", &points_},
+             {"gradients", &gradient_texels_},
+             {"open_faces", &open_faces_},
+             {"tiles", &tiles_},
+             {"listed_faces", &listed_faces_}}) {
         buffer->bind(unit);
         program_.set(name, static_cast<int>(unit++));
     }

@@ -33,6 +33,9 @@ struct EntryTiles {
     std::vector<std::uint32_t> ends_;  // of each tile's list
 };
 
+// Returns the definitions of projection/walk.comp. `copies`: TetMesh::has_copies().
+gl::Defines walk_defines(const ProjectPlan& plan, const GlProjectTables& tables, bool copies);
+
 // Draws a mesh by a compute shader that walks each ray from tet to tet
 // (shaders/projection/walk.comp), in the current OpenGL context, which must outlive it. It needs no
 // order of tets.
@@ -61,7 +64,9 @@ class GlMeshWalk : public ProjectRenderer {
     GlProjectTables tables_;
     gl::Program program_;
     EntryTiles entries_;
-    gl::TexelBuffer tets_, neighbors_, points_, open_faces_, tiles_, listed_faces_;
+    StoredGradients gradients_;  // empty if nothing is lit
+    gl::TexelBuffer tets_, neighbors_, corners_, points_, gradient_texels_, open_faces_;
+    gl::TexelBuffer tiles_, listed_faces_;
     gl::Buffer pixels_, rays_, unfinished_;
     double list_ms_ = 0;
 };

@@ -122,6 +122,13 @@ gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
     return defines;
 }
 
+void set_lit_view(const Lighting& lighting, const StoredGradients& gradients, double most_bend,
+                  gl::Program& program) {
+    set_lights(lighting, world_axes, program);
+    set_light_cuts(lighting, program);
+    program.set("light_limits", glm::vec2(gradients.smallest_square(lighting), most_bend));
+}
+
 GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan)
     : plan_(plan), single_color_(first_color(transfer_function, plan.range.lo, plan.range.hi)) {
     switch (plan.source) {
@@ -319,13 +326,10 @@ void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
     }
     if (plan_.blending == Blending::barrier) program.set("target", target_unit);
     if (!plan_.lighting) return;
-    set_lights(*plan_.lighting, world_axes, program);
+    set_lit_view(*plan_.lighting, gradients_, plan_.most_bend, program);
     const auto axis = [](const glm::dvec3& v) { return glm::vec4(glm::vec3(v), 0); };
     const std::array axes{axis(view.right), axis(view.up), axis(view.forward)};
     program.set("view_axes", std::span<const glm::vec4>(axes));
-    set_light_cuts(*plan_.lighting, program);
-    program.set("light_limits",
-                glm::vec2(gradients_.smallest_square(*plan_.lighting), plan_.most_bend));
 }
 
 void GlProjectRenderer::draw_cell_fragments(const DrawOrder<CellFragment>& cell_fragments,

@@ -16,6 +16,10 @@ bool has_program(const ProjectPlan& plan, FragmentKind kind);
 // Returns the definitions of projection/tet.frag and its vertex shader, except for the tables.
 gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind);
 
+// Sets the uniforms of a lit program, except view_axes.
+void set_lit_view(const Lighting& lighting, const StoredGradients& gradients, double most_bend,
+                  gl::Program& program);
+
 // The transfer function in the form that the fragments of tets read
 // (shaders/projection/tet_color.glsl). The plan must outlive it.
 class GlProjectTables {
