@@ -15,6 +15,7 @@ struct Capabilities {
     int max_texture_size = 0;        // GL_MAX_TEXTURE_SIZE, also of the render target
     int max_3d_texture_size = 0;     // GL_MAX_3D_TEXTURE_SIZE
     int max_array_layers = 0;        // GL_MAX_ARRAY_TEXTURE_LAYERS
+    int max_buffer_texels = 0;       // GL_MAX_TEXTURE_BUFFER_SIZE; 0: no compute shaders
     int subpixel_bits = 8;           // GL_SUBPIXEL_BITS: corners are rounded to a grid this fine
     bool framebuffer_fetch = false;  // GL_EXT_shader_framebuffer_fetch
     // Largest texture that is made. The limits that OpenGL reports are not reliable

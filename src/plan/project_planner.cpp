@@ -291,9 +291,9 @@ struct ProjectPlanner {
     // bits and scalars of 24, which must resolve the shortest edge and the scalars that are shown.
     bool choose_walk() const {
         constexpr double shortest = 0x1p-22;  // of the diagonal: 2^9 steps of places
-        return !capabilities.cpu && plan.target == Target::float32 &&
-               plan.geometry == ProjectGeometry::silhouette && plan.tree.empty() &&
-               plan.thickness == Thickness::exact && !plan.nothing_visible &&
+        return std::max(facts.tets, facts.points) <= capabilities.max_buffer_texels &&
+               plan.target == Target::float32 && plan.geometry == ProjectGeometry::silhouette &&
+               plan.tree.empty() && plan.thickness == Thickness::exact && !plan.nothing_visible &&
                (plan.solve_rings || plan.single_color) && facts.overlapping_tets == 0 &&
                facts.shortest_edge > shortest * facts.diagonal && !plan.windowed &&
                !has_narrow_pieces(*scene.transfer_function, drawn);

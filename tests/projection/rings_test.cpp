@@ -158,7 +158,7 @@ TEST_P(Rings, AreWrongOnlyOnRaysWhereTheMeshOverlaps) {
     EXPECT_GT(wrong, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(BothEngines, Rings, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(Engines, Rings, every_engine, engine_name);
 
 }  // namespace
 }  // namespace lamina
