@@ -45,9 +45,13 @@ OPTICS low_optics, high_optics;
 // The ray of a pixel between two dispatches.
 struct Ray {
     uvec4 front;         // corners of the face by which it enters the next tet; the tet, or no_tet
-    uint last_entry;     // the open face by which it entered the mesh last
-    uint entries_left;   // open faces by which it enters behind that one
-    double entry_depth;  // of the last entry
+    uint last_entry;      // the open face by which it entered the mesh last, or no_tet
+    uint entries_left;    // open faces by which it enters behind that one; 1 if they are not counted
+    double entry_depth;   // of the last entry
+    // The search for the next entry: listed faces that are done, entries among them, and the first of these.
+    uint searched, entries;
+    double first_depth;
+    uint first_entry, first_tet;
 };
 layout(std430, binding = 0) buffer Pixels { vec4 pixels[]; };  // associated colour, row 0 on top
 layout(std430, binding = 1) buffer Rays { Ray rays[]; };       // 64 a tile
@@ -57,35 +61,37 @@ uniform usamplerBuffer tiles;         // first column, first row, first and last
 uniform usamplerBuffer listed_faces;  // numbers of open faces
 uniform ivec2 image_size;
 uniform bool begins;   // this is the first dispatch of the picture
-uniform int rounds;
+uniform int rounds;    // fewer than software rasterisers allow for all loops of an invocation together
 uniform double near_depth;  // from the mesh's center
 
 // Opacity above which nothing behind can be seen: it hides all but 1e-6 of it, or 2.6e-4 / 255.
 const float opaque = 0.999999;
 
-// Finds the first entry behind the last one, and counts the entries behind that. Returns the tet, or no_tet.
-uint find_entry(uvec2 list, inout Ray ray, out Front front) {
-    uint found = no_tet, tet = no_tet;
-    double nearest = 0.0LF;
-    ray.entries_left = 0u;
-    for (uint i = list.x; i < list.y; ++i) {
-        uint face = texelFetch(listed_faces, int(i)).x;
+// Finds the first entry behind the last one, and counts the entries. Returns the tet, or no_tet; also if it ends early,
+// after `left` rounds.
+uint find_entry(uvec2 list, inout Ray ray, inout int left, inout Front front) {
+    for (; left > 0 && list.x + ray.searched < list.y; --left, ++ray.searched) {
+        uint face = texelFetch(listed_faces, int(list.x + ray.searched)).x;
         uvec4 corners = texelFetch(open_faces, int(face));
         Front seen = front_of(corners.xyz);
-        if (!enters(seen)) continue;
         double depth = crossing_of(seen).depth;
         bool behind = ray.last_entry == no_tet || depth > ray.entry_depth ||
                       (depth == ray.entry_depth && face > ray.last_entry);
-        if (!behind) continue;
-        if (found != no_tet) ++ray.entries_left;
-        if (found != no_tet && (depth > nearest || (depth == nearest && face > found))) continue;
-        found = face;
-        nearest = depth;
-        tet = corners.w;
-        front = seen;
+        if (!behind || !enters(seen)) continue;
+        ++ray.entries;
+        bool nearest = depth < ray.first_depth || (depth == ray.first_depth && face < ray.first_entry);
+        if (ray.entries > 1u && !nearest) continue;
+        ray.first_entry = face;
+        ray.first_tet = corners.w;
+        ray.first_depth = depth;
     }
-    ray.last_entry = found;
-    ray.entry_depth = nearest;
+    if (list.x + ray.searched < list.y) return no_tet;
+    ray.last_entry = ray.first_entry;
+    ray.entry_depth = ray.first_depth;
+    ray.entries_left = max(ray.entries, 1u) - 1u;
+    uint tet = ray.entries > 0u ? ray.first_tet : no_tet;
+    ray.searched = ray.entries = 0u;
+    if (tet != no_tet) front = front_of(texelFetch(open_faces, int(ray.first_entry)).xyz);
     return tet;
 }
 
@@ -176,7 +182,7 @@ void main() {
     aim(vec2(pixel.x + 0.5, image_size.y - pixel.y - 0.5));
 
     vec4 color = vec4(0.0);
-    Ray ray = Ray(uvec4(0u, 0u, 0u, no_tet), no_tet, 1u, 0.0LF);
+    Ray ray = Ray(uvec4(0u, 0u, 0u, no_tet), no_tet, 1u, 0.0LF, 0u, 0u, 0.0LF, no_tet, no_tet);
     Front front;
     if (!begins) {
         ray = rays[number];
@@ -187,8 +193,8 @@ void main() {
     int left = rounds;
     while (left > 0 && (tet != no_tet || ray.entries_left > 0u)) {
         --left;
-        if (tet == no_tet) tet = find_entry(tile.zw, ray, front);
-        walk(tet, front, left, color);
+        if (tet == no_tet) tet = find_entry(tile.zw, ray, left, front);
+        if (tet != no_tet) walk(tet, front, left, color);
         if (color.a > opaque) {
             tet = no_tet;
             ray.entries_left = 0u;

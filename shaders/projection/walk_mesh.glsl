@@ -6,7 +6,7 @@
 // buffers.
 uniform usamplerBuffer tets;       // the corners' numbers, combined by ^, and hidden_tet
 uniform usamplerBuffer neighbors;  // tets behind the faces opposite to the corners, by ascending number of these
-uniform usamplerBuffer points;     // place in steps of `place_step`, scalar
+uniform usamplerBuffer points;     // place in steps of `place_steps`, scalar
 #ifdef COPIES
 uniform usamplerBuffer corners;  // a tet's corners with values of its own, in the same order
 #endif
@@ -15,7 +15,7 @@ uniform usamplerBuffer gradients;  // of points
 #endif
 uniform usamplerBuffer open_faces;
 
-uniform double place_step;
+uniform dvec3 place_steps;
 
 uniform dvec3 view_axes[3];      // unit vectors to the right, up and forward, in world space
 uniform dvec3 mesh_center;       // from the eye, along these axes
@@ -58,9 +58,9 @@ void aim(vec2 window) {
 #elif defined(LIT)
     to_eye = vec3(-normalize(view_axes[2] + from_middle.x * view_axes[0] + from_middle.y * view_axes[1]));
 #endif
-    across_x *= place_step;
-    across_y *= place_step;
-    along = place_step * view_axes[2];
+    across_x *= place_steps;
+    across_y *= place_steps;
+    along = place_steps * view_axes[2];
 }
 
 // A corner of a face, as seen along the ray.

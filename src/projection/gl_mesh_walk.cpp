@@ -7,7 +7,7 @@
 //                corners of a tet, it tells the fourth; hidden_tet if it shows nothing
 //   neighbors    tets behind the faces opposite to the corners, by ascending place of these
 //   corners      if points have copies: the corners themselves, by ascending place
-//   points       place from the mesh's center, in steps of place_step_, and normalised scalar
+//   points       place from the mesh's center, in steps of place_steps_, and normalised scalar
 //   gradients    if lit: StoredGradients
 //   open faces   corners, counter-clockwise seen from outside, and the tet
 //   tiles        EntryTiles::Tile
@@ -32,18 +32,28 @@ namespace {
 
 constexpr std::uint32_t hidden_tet = 0x80000000u;
 
-// Steps of a ray in one dispatch: few enough that software rasterisers, which end all loops of an
-// invocation together after 65535 rounds, end none.
-constexpr int most_rounds = 4096;
+// Returns the number of rounds of a ray in one dispatch. Software rasterisers end all loops of an
+// invocation together after 65535 rounds, also those that integrate a segment, within a round.
+int rounds_of(const ProjectPlan& plan, int intervals) {
+    constexpr int most = 65000;
+    // Pieces of a lit segment are 1 / 256 of it or longer, and each may be shortened some times.
+    if (plan.lighting) return most / 1000;
+    // Three look-ups, and two searches for the interval of a scalar.
+    if (plan.source == SegmentSource::cut_table) return most / (8 + 2 * intervals);
+    return most / 2;
+}
 
 constexpr unsigned mesh_unit = 4;  // and those after it; behind those of GlProjectTables
 
 using Texel = std::array<std::uint32_t, 4>;
 
-// Returns the largest power of two in whose steps 31 bits reach all of `reach`.
-double step_for(const glm::dvec3& reach) {
-    const double distance = std::max({reach.x, reach.y, reach.z});
-    return std::exp2(std::ceil(std::log2(std::max(distance, 1e-300))) - 31);
+// Returns the steps of places along each axis: 2^30 from the center to the sides of the box, so
+// that these are exact, and rays along them go to the side that ray_perturbation() says.
+glm::dvec3 steps_to(const glm::dvec3& sides) {
+    glm::dvec3 steps = 0x1p-30 * sides;
+    for (int axis = 0; axis < 3; ++axis)
+        if (steps[axis] == 0) steps[axis] = 1;
+    return steps;
 }
 
 template <typename T>
@@ -144,7 +154,7 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
       width_(width),
       height_(height),
       center_(0.5 * mesh.mesh.bounds().min + 0.5 * mesh.mesh.bounds().max),
-      place_step_(step_for(mesh.mesh.bounds().max - center_)),
+      place_steps_(steps_to(mesh.mesh.bounds().max - center_)),
       tables_(transfer_function_, plan_),
       program_("projection/walk.comp", walk_defines(plan_, tables_, mesh.mesh.has_copies())) {
     if (plan_.lighting)
@@ -188,7 +198,7 @@ void GlMeshWalk::upload_mesh() {
     const double per_scalar = 1 / (plan_.range.hi - plan_.range.lo);
     std::vector<Texel> texels(mesh.points().size());
     for (std::size_t i = 0; i < mesh.points().size(); ++i) {
-        const glm::dvec3 place = (mesh.points()[i] - center_) / place_step_;
+        const glm::dvec3 place = (mesh.points()[i] - center_) / place_steps_;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             // Points without tets may lie beyond the box.
             const double steps = std::clamp(place[static_cast<int>(axis)], -0x1p31, 0x1p31 - 1);
@@ -222,7 +232,7 @@ void GlMeshWalk::upload_mesh() {
 
 void GlMeshWalk::upload_tiles() {
     if (entries_.tiles.empty()) return;
-    constexpr std::size_t ray_bytes = 32, rays_in_tile = EntryTiles::size * EntryTiles::size;
+    constexpr std::size_t ray_bytes = 64, rays_in_tile = EntryTiles::size * EntryTiles::size;
     reserve(tiles_, 4, entries_.tiles.size());
     reserve(listed_faces_, 1, entries_.faces.size());
     tiles_.write(std::span(entries_.tiles));
@@ -245,8 +255,8 @@ void GlMeshWalk::set_view(const View& view) {
     program_.set("pixel_size", in_units.pixel);
     program_.set("ray_perturbation", ray_perturbation(view));
     program_.set("near_depth", plan_.near_depth - center.z);
-    program_.set("rounds", most_rounds);
-    program_.set("place_step", place_step_ * plan_.unit);
+    program_.set("rounds", rounds_of(plan_, tables_.intervals()));
+    program_.set("place_steps", place_steps_ * plan_.unit);
     if (plan_.lighting) set_lit_view(*plan_.lighting, gradients_, plan_.most_bend, program_);
     unsigned unit = mesh_unit;
     for (const auto& [name, buffer] :

@@ -59,8 +59,8 @@ class GlMeshWalk : public ProjectRenderer {
     void set_view(const View& view);
 
     int width_, height_;
-    glm::dvec3 center_;  // of the mesh's box
-    double place_step_;  // of points' places, in world units: a power of two
+    glm::dvec3 center_;       // of the mesh's box
+    glm::dvec3 place_steps_;  // of points' places along the axes, in world units
     GlProjectTables tables_;
     gl::Program program_;
     EntryTiles entries_;

@@ -130,8 +130,11 @@ void set_lit_view(const Lighting& lighting, const StoredGradients& gradients, do
 }
 
 GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan)
-    : plan_(plan), single_color_(first_color(transfer_function, plan.range.lo, plan.range.hi)) {
-    switch (plan.source) {
+    : plan_(plan),
+      source_(plan.walk && plan.source == SegmentSource::analytic ? SegmentSource::parts
+                                                                  : plan.source),
+      single_color_(first_color(transfer_function, plan.range.lo, plan.range.hi)) {
+    switch (source_) {
         case SegmentSource::constant:
             constant_ = transfer_function.at(plan.range.lo);
             break;
@@ -187,10 +190,10 @@ void GlProjectTables::upload(const UniformTable& table) {
 }
 
 void GlProjectTables::set_defines(gl::Defines& defines) const {
-    defines.set("SOURCE", static_cast<int>(plan_.source));
+    defines.set("SOURCE", static_cast<int>(source_));
     if (!plan_.single_color) defines.set("TABLE_COLORED", 1);
     if (plan_.table_filtered) defines.set("TABLE_FILTERED", 1);
-    if (plan_.source == SegmentSource::parts) {
+    if (source_ == SegmentSource::parts) {
         defines.set("OPTICS", plan_.single_color ? "float" : "vec4");
         if (plan_.walk) {
             defines.set("THIN", 1);
@@ -213,7 +216,7 @@ void GlProjectTables::set_defines(gl::Defines& defines) const {
 }
 
 void GlProjectTables::bind(gl::Program& program) const {
-    if (plan_.source == SegmentSource::constant) {
+    if (source_ == SegmentSource::constant) {
         const double extinction = std::min(constant_.extinction, max_shader_extinction);
         program.set("constant_optics", glm::vec4(constant_.color, extinction));
         return;

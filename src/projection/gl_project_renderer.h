@@ -29,11 +29,14 @@ class GlProjectTables {
     void set_defines(gl::Defines& defines) const;
     void bind(gl::Program& program) const;  // textures and uniforms
     const glm::vec3& single_color() const { return single_color_; }
+    int intervals() const { return intervals_ ? intervals_->intervals() : 0; }
 
   private:
     void upload(const UniformTable& table);
 
     const ProjectPlan& plan_;
+    // The plan's, but walks cut segments to pieces in place of integrating them at once (analytic).
+    SegmentSource source_;
     glm::vec3 single_color_;
     OpticalProperties constant_;
     std::shared_ptr<const UniformTable> table_;
