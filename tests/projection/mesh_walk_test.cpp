@@ -51,6 +51,15 @@ class MeshWalk : public gl::EveryContextTest {
 // Float32 sums of few segments: some roundings of 6e-8, and 3e-7 of opacity_from_depth().
 constexpr double few_roundings = 1e-6;
 
+// Looks at the middle of the unit square at z = 0, from above.
+void look_down(Scene& scene, double height) {
+    scene.camera->projection = Projection::orthographic;
+    scene.camera->eye = {.5, .5, 3};
+    scene.camera->center = {.5, .5, 0};
+    scene.camera->up = {0, 1, 0};
+    scene.camera->height = height;
+}
+
 // A million rays parallel to edges of 786,432 tets, through their corners, along their edges and
 // along their faces, in all fourths of cells. Rays on the mesh's boundary are inside if they are
 // when moved to the right and, less so, upwards: ray_perturbation() moves them along the world's x
@@ -60,11 +69,7 @@ TEST_P(MeshWalk, SeesNoGapAlongParallelEdges) {
     const SceneMesh mesh = placed(test::kuhn_box({cells, cells, 2}, constant_field), {0, 0, 0},
                                   {1. / cells, 1. / cells, .5});
     Scene scene = scene_of_constant(rays, rays);
-    scene.camera->projection = Projection::orthographic;
-    scene.camera->eye = {.5, .5, 3};
-    scene.camera->center = {.5, .5, 0};
-    scene.camera->up = {0, 1, 0};
-    scene.camera->height = static_cast<double>(rays) / (rays - 1);
+    look_down(scene, static_cast<double>(rays) / (rays - 1));
     const double error = error_of(walk(mesh, scene), [&](int column, int row) {
         return column < rays - 1 && row > 0 ? 1.0 : 0.0;
     });
@@ -74,7 +79,7 @@ TEST_P(MeshWalk, SeesNoGapAlongParallelEdges) {
 // The eye lies in planes of the mesh, which are seen edge-on: rays of the middle row and column and
 // of the diagonals run inside faces.
 TEST_P(MeshWalk, SeesNoGapFromPlanesOfTheMesh) {
-    constexpr int cells = 16, rays = 1001;
+    constexpr int cells = 16, rays = 301;
     const glm::dvec3 least(-1), most(1);
     const SceneMesh mesh = placed(test::kuhn_box({cells, cells, cells}, constant_field), least,
                                   (most - least) / static_cast<double>(cells));
@@ -103,19 +108,25 @@ TEST_P(MeshWalk, SeesNoGapFromPlanesOfTheMesh) {
     }
 }
 
-// Each ray passes 12000 tets or more, in several dispatches.
+// Each ray passes 36000 tets or more, in two dispatches.
 TEST_P(MeshWalk, ContinuesInTheNextDispatch) {
-    constexpr int cells = 4000;
+    constexpr int cells = 12000;
     const SceneMesh mesh =
         placed(test::kuhn_box({1, 1, cells}, constant_field), {0, 0, 0}, {1, 1, 1. / cells});
-    Scene scene = scene_of_constant(24, 24);
-    scene.camera->projection = Projection::orthographic;
-    scene.camera->eye = {.5, .5, 3};
-    scene.camera->center = {.5, .5, 0};
-    scene.camera->up = {0, 1, 0};
-    scene.camera->height = 1;
-    // Sums of 12000 opacities near 6e-5, each rounded by half of 2^-24 at most.
-    EXPECT_LE(error_of(walk(mesh, scene), [](int, int) { return 1.0; }), 12000 * 3e-8);
+    Scene scene = scene_of_constant(8, 8);
+    look_down(scene, .5);
+    // OVER rounds the sum by half of 2^-24 at most at each tet.
+    EXPECT_LE(error_of(walk(mesh, scene), [](int, int) { return 1.0; }), 36000 * 3e-8);
+}
+
+// A tile has 131072 faces that a ray may enter by, more than a dispatch tests.
+TEST_P(MeshWalk, SearchesManyFacesInSeveralDispatches) {
+    constexpr int cells = 256;
+    const SceneMesh mesh = placed(test::kuhn_box({cells, cells, 1}, constant_field), {0, 0, 0},
+                                  {1. / cells, 1. / cells, 1});
+    Scene scene = scene_of_constant(8, 8);
+    look_down(scene, 1);
+    EXPECT_LE(error_of(walk(mesh, scene), [](int, int) { return 1.0; }), few_roundings);
 }
 
 // Forty slabs with gaps between them, each a mesh of its own: rays enter forty times, nearest
