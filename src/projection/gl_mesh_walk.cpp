@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -80,13 +79,12 @@ gl::Defines walk_defines(const ProjectPlan& plan, const GlProjectTables& tables,
 
 // Bounds each face's tiles: the pixels around its corners, or all if it crosses the plane of the
 // eye. Faces that rays surely leave by get none.
-void EntryTiles::list(const TetMesh& mesh, const View& view) {
+void EntryTiles::list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view) {
     constexpr double margin = 1;      // pixel: more than rounding and ray_perturbation()
     constexpr double edge_on = 1e-7;  // sine of an angle: more than these
     const int columns = (view.width + size - 1) / size, rows = (view.height + size - 1) / size;
     const Area everywhere{0, columns - 1, 0, rows - 1}, nowhere{0, -1, 0, -1};
     const WindowView window(view);
-    const auto faces_of_mesh = mesh.open_faces();
     const auto area_of = [&](const TetFace& face) -> Area {
         const std::array<glm::dvec3, 3> corners = mesh.corners(face);
         const glm::dvec3 normal =
@@ -116,10 +114,10 @@ void EntryTiles::list(const TetMesh& mesh, const View& view) {
                 std::max(tile(view.height - most.y - margin, rows), 0),
                 std::min(tile(view.height - least.y + margin, rows), rows - 1)};
     };
-    areas_.resize(faces_of_mesh.size());
-    parallel_for(std::ssize(faces_of_mesh), 1024, [&](std::int64_t i) {
+    areas_.resize(open_faces.size());
+    parallel_for(std::ssize(open_faces), 1024, [&](std::int64_t i) {
         const auto face = static_cast<std::size_t>(i);
-        areas_[face] = area_of(faces_of_mesh[face]);
+        areas_[face] = area_of(open_faces[face]);
     });
     const auto for_each_tile = [&](const auto& visit) {
         for (std::size_t face = 0; face < areas_.size(); ++face) {
@@ -166,31 +164,57 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
     upload_mesh();
 }
 
+// Marks the tets that show nothing, and lists the faces by which rays enter. Rays leave the mesh at
+// marked tets and enter it behind them if that costs fewer faces than it saves tets.
+std::vector<char> GlMeshWalk::choose_faces() {
+    const TetMesh& mesh = mesh_.mesh;
+    const auto& values = mesh_.scalar.values;
+    std::vector<char> hidden(mesh.tets().size());
+    parallel_for(std::ssize(mesh.tets()), 4096, [&](std::int64_t index) {
+        const auto i = static_cast<std::size_t>(index);
+        const TetPieces::Span span = plan_.draw_transparent
+                                         ? pieces_.met(values, mesh.tets()[i])
+                                         : pieces_.visible(values, mesh.tets()[i]);
+        hidden[i] = span.empty() ? 1 : 0;
+    });
+    for (std::size_t i = 0; i < hidden.size(); ++i) {
+        for (std::size_t face = 0; face < 4 && hidden[i] == 0; ++face) {
+            const std::int32_t behind = mesh.neighbors()[i][face];
+            if (behind == TetMesh::no_neighbor || hidden[static_cast<std::size_t>(behind)] != 0)
+                faces_.push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(face)});
+        }
+    }
+    const auto hidden_tets = std::ranges::count(hidden, 1);
+    tets_drawn_ = std::ssize(hidden) - hidden_tets;
+    around_hidden_ = std::ssize(faces_) - std::ssize(mesh.open_faces()) < hidden_tets;
+    if (!around_hidden_) faces_.assign(mesh.open_faces().begin(), mesh.open_faces().end());
+    return hidden;
+}
+
 void GlMeshWalk::upload_mesh() {
     const Stage uploading("upload mesh");
     const TetMesh& mesh = mesh_.mesh;
     const auto& values = mesh_.scalar.values;
+    const std::vector<char> hidden = choose_faces();
     std::vector<std::uint32_t> combined(mesh.tets().size());
     std::vector<Texel> neighbors(mesh.tets().size()), corners;
     if (mesh.has_copies()) corners.resize(mesh.tets().size());
-    std::atomic<std::int64_t> shown = 0;
     parallel_for(std::ssize(mesh.tets()), 4096, [&](std::int64_t index) {
         const auto i = static_cast<std::size_t>(index);
-        const Tet& tet = mesh.tets()[i];
-        const Tet places = mesh.place(tet);
-        const bool hidden = plan_.draw_transparent ? pieces_.met(values, tet).empty()
-                                                   : pieces_.visible(values, tet).empty();
-        if (!hidden) ++shown;
+        const Tet places = mesh.place(mesh.tets()[i]);
         combined[i] = static_cast<std::uint32_t>(places[0] ^ places[1] ^ places[2] ^ places[3]) |
-                      (hidden ? hidden_tet : 0);
+                      (hidden[i] != 0 ? hidden_tet : 0);
         for (std::size_t corner = 0; corner < 4; ++corner) {
             const auto below = static_cast<std::size_t>(std::ranges::count_if(
                 places, [&](std::int32_t other) { return other < places[corner]; }));
-            neighbors[i][below] = static_cast<std::uint32_t>(mesh.neighbors()[i][corner]);
-            if (!corners.empty()) corners[i][below] = static_cast<std::uint32_t>(tet[corner]);
+            const std::int32_t behind = mesh.neighbors()[i][corner];
+            const bool ends = behind == TetMesh::no_neighbor ||
+                              (around_hidden_ && hidden[static_cast<std::size_t>(behind)] != 0);
+            neighbors[i][below] = static_cast<std::uint32_t>(ends ? TetMesh::no_neighbor : behind);
+            if (!corners.empty())
+                corners[i][below] = static_cast<std::uint32_t>(mesh.tets()[i][corner]);
         }
     });
-    tets_drawn_ = shown;
     tets_ = make_texels(combined);
     neighbors_ = make_texels(neighbors);
     if (!corners.empty()) corners_ = make_texels(corners);
@@ -217,9 +241,9 @@ void GlMeshWalk::upload_mesh() {
     }
     if (plan_.lighting) gradient_texels_ = make_texels(texels);
 
-    texels.resize(mesh.open_faces().size());
+    texels.resize(faces_.size());
     for (std::size_t i = 0; i < texels.size(); ++i) {
-        const TetFace& face = mesh.open_faces()[i];
+        const TetFace& face = faces_[i];
         const auto of_face =
             corners_of_face(mesh.place(mesh.tets()[static_cast<std::size_t>(face.tet)]),
                             static_cast<std::size_t>(face.face));
@@ -279,7 +303,7 @@ void GlMeshWalk::set_view(const View& view) {
 
 void GlMeshWalk::draw(const View& view, Progress* progress) {
     Stage listing("order");
-    entries_.list(mesh_.mesh, view);
+    entries_.list(mesh_.mesh, faces_, view);
     upload_tiles();
     list_ms_ = listing.end();
     Stage drawing("draw");

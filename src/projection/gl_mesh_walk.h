@@ -20,10 +20,10 @@ struct EntryTiles {
         std::uint32_t first, end;   // range of `faces`
     };
     std::vector<Tile> tiles;
-    std::vector<std::uint32_t> faces;  // indices into TetMesh::open_faces()
+    std::vector<std::uint32_t> faces;  // indices into `open_faces`
 
-    // Lists the faces for a view, on all cores.
-    void list(const TetMesh& mesh, const View& view);
+    // Lists the faces for a view.
+    void list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view);
 
   private:
     struct Area {  // tiles, first to last (included)
@@ -54,6 +54,7 @@ class GlMeshWalk : public ProjectRenderer {
     ProjectReuse reusable() const override { return {order_, nullptr}; }
 
   private:
+    std::vector<char> choose_faces();
     void upload_mesh();
     void upload_tiles();
     void set_view(const View& view);
@@ -63,6 +64,8 @@ class GlMeshWalk : public ProjectRenderer {
     glm::dvec3 place_steps_;  // of points' places along the axes, in world units
     GlProjectTables tables_;
     gl::Program program_;
+    std::vector<TetFace> faces_;  // by which rays enter
+    bool around_hidden_ = false;  // rays leave the mesh at tets that show nothing
     EntryTiles entries_;
     StoredGradients gradients_;  // empty if nothing is lit
     gl::TexelBuffer tets_, neighbors_, corners_, points_, gradient_texels_, open_faces_;

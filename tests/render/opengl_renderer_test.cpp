@@ -257,8 +257,8 @@ TEST_F(OpenGlSession, WalkedMeshesStayOnTheDevice) {
     SceneRenderer frames(mesh_scene(), data, capabilities());
     frames.draw();
     EXPECT_NE(dynamic_cast<const GlMeshWalk*>(&frames.renderer()), nullptr);
-    const Done before;
     for (int degrees = 30; degrees < 360; degrees += 60) {
+        const Done before;
         frames.set_camera(orbit(degrees));
         frames.draw();
         EXPECT_EQ(Done(), before);
