@@ -59,6 +59,7 @@ layout(std430, binding = 2) buffer Unfinished { uint unfinished; };
 
 uniform usamplerBuffer tiles;         // first column, first row, first and last + 1 entry of `listed`
 uniform usamplerBuffer listed_faces;  // numbers of open faces
+uniform int first_tile;  // of the dispatch
 uniform ivec2 image_size;
 uniform bool begins;   // this is the first dispatch of the picture
 uniform int rounds;    // fewer than software rasterisers allow for all loops of an invocation together
@@ -174,7 +175,7 @@ uvec2 pixel_in_tile(uint i) {  // Morton order
 }
 
 void main() {
-    uvec4 tile = texelFetch(tiles, int(gl_WorkGroupID.x));
+    uvec4 tile = texelFetch(tiles, first_tile + int(gl_WorkGroupID.x));
     ivec2 pixel = ivec2(tile.xy + pixel_in_tile(gl_LocalInvocationIndex));
     if (any(greaterThanEqual(pixel, image_size))) return;
     int place = pixel.y * image_size.x + pixel.x;

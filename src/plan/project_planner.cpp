@@ -289,10 +289,13 @@ struct ProjectPlanner {
     // Rays walk if the picture is right in every pixel and has float32: then nothing is rounded
     // between two tets, so that it does not matter what composites them. A walk has places of 32
     // bits and scalars of 24, which must resolve the shortest edge and the scalars that are shown.
-    // In software, a lit walk takes twice the time of the rasteriser (docs/journal.md).
+    // In software, lit walks take 1.4 times as long as the rasteriser (docs/journal.md).
     bool choose_walk() const {
         constexpr double shortest = 0x1p-22;  // of the diagonal: 2^9 steps of places
-        return std::max(facts.tets, facts.points) <= capabilities.max_buffer_texels &&
+        // Pixels that a storage block of 128 MiB holds, which every OpenGL allows.
+        constexpr std::int64_t most_pixels = std::int64_t{1} << 23;
+        return std::int64_t{scene.width} * scene.height <= most_pixels &&
+               std::max(facts.tets, facts.points) <= capabilities.max_buffer_texels &&
                !(capabilities.software && scene.lighting) && plan.target == Target::float32 &&
                plan.geometry == ProjectGeometry::silhouette && plan.tree.empty() &&
                plan.thickness == Thickness::exact && !plan.nothing_visible &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws a frame of a mesh:
-//   1. List the open faces that rays of each tile may enter, on all cores.
+//   1. List the faces by which rays of each tile may enter.
 //   2. Dispatch projection/walk.comp, a workgroup a tile, until no ray is unfinished.
 // The mesh is uploaded once, as texels of integers, into which floats are stored by their bits:
 //   tets         the corners' places (TetMesh::places()), combined by exclusive or: with three
@@ -42,6 +42,13 @@ int rounds_of(const ProjectPlan& plan, int intervals) {
     return most / 2;
 }
 
+// Largest number of tiles in one dispatch: 64 MiB of rays between two dispatches.
+constexpr std::size_t most_tiles = 16384;
+
+std::size_t tile_count(int pixels) {
+    return (static_cast<std::size_t>(pixels) + EntryTiles::size - 1) / EntryTiles::size;
+}
+
 constexpr unsigned mesh_unit = 4;  // and those after it; behind those of GlProjectTables
 
 using Texel = std::array<std::uint32_t, 4>;
@@ -77,57 +84,55 @@ gl::Defines walk_defines(const ProjectPlan& plan, const GlProjectTables& tables,
     return defines;
 }
 
-// Bounds each face's tiles: the pixels around its corners, or all if it crosses the plane of the
-// eye. Faces that rays surely leave by get none.
-void EntryTiles::list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view) {
+PixelArea EntryTiles::area_of(const Triangle& face, const WindowView& window) const {
     constexpr double margin = 1;      // pixel: more than rounding and ray_perturbation()
     constexpr double edge_on = 1e-7;  // sine of an angle: more than these
-    const int columns = (view.width + size - 1) / size, rows = (view.height + size - 1) / size;
-    const Area everywhere{0, columns - 1, 0, rows - 1}, nowhere{0, -1, 0, -1};
-    const WindowView window(view);
-    const auto area_of = [&](const TetFace& face) -> Area {
-        const std::array<glm::dvec3, 3> corners = mesh.corners(face);
-        const glm::dvec3 normal =
-            glm::cross(corners[1] - corners[0], corners[2] - corners[0]);  // outwards
-        std::array<glm::dvec3, 3> seen;
-        for (std::size_t i = 0; i < 3; ++i) seen[i] = window.see(corners[i]);
-        const auto in_front = [](const glm::dvec3& p) { return p.z > 0; };
-        const bool front = std::ranges::all_of(seen, in_front);
-        if (window.perspective() && !front && std::ranges::any_of(seen, in_front))
-            return everywhere;
-        const glm::dvec3 to_face = window.perspective() ? corners[0] - view.eye : view.forward;
-        const double sign = window.perspective() && !front ? -1 : 1;
-        if (sign * glm::dot(normal, to_face) > edge_on * glm::length(normal) * glm::length(to_face))
-            return nowhere;
-        glm::dvec2 least(INFINITY), most(-INFINITY);
-        for (const glm::dvec3& p : seen) {
-            const glm::dvec2 place = window.to_window(p);
-            least = glm::min(least, place);
-            most = glm::max(most, place);
-        }
-        const auto tile = [](double pixel, int count) {
-            return static_cast<std::int32_t>(
-                std::clamp(std::floor(pixel / size), -1.0, double{1} * count));
-        };
-        return {std::max(tile(least.x - margin, columns), 0),
-                std::min(tile(most.x + margin, columns), columns - 1),
-                std::max(tile(view.height - most.y - margin, rows), 0),
-                std::min(tile(view.height - least.y + margin, rows), rows - 1)};
+    const PixelArea everywhere{0, columns_ - 1, 0, rows_ - 1}, nowhere{0, -1, 0, -1};
+    const glm::dvec3 normal = glm::cross(face[1] - face[0], face[2] - face[0]);  // outwards
+    std::array<glm::dvec3, 3> seen;
+    for (std::size_t i = 0; i < 3; ++i) seen[i] = window.see(face[i]);
+    const auto in_front = [](const glm::dvec3& p) { return p.z > 0; };
+    const bool front = std::ranges::all_of(seen, in_front);
+    if (window.perspective() && !front && std::ranges::any_of(seen, in_front)) return everywhere;
+    const View& view = window.view();
+    const glm::dvec3 to_face = window.perspective() ? face[0] - view.eye : view.forward;
+    const double sign = window.perspective() && !front ? -1 : 1;
+    if (sign * glm::dot(normal, to_face) > edge_on * glm::length(normal) * glm::length(to_face))
+        return nowhere;
+    glm::dvec2 least(INFINITY), most(-INFINITY);
+    for (const glm::dvec3& p : seen) {
+        const glm::dvec2 place = window.to_window(p);
+        least = glm::min(least, place);
+        most = glm::max(most, place);
+    }
+    const auto tile = [](double pixel, std::int32_t count) {
+        return static_cast<std::int32_t>(
+            std::clamp(std::floor(pixel / size), -1.0, static_cast<double>(count)));
     };
+    return {std::max(tile(least.x - margin, columns_), 0),
+            std::min(tile(most.x + margin, columns_), columns_ - 1),
+            std::max(tile(view.height - most.y - margin, rows_), 0),
+            std::min(tile(view.height - least.y + margin, rows_), rows_ - 1)};
+}
+
+void EntryTiles::list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view) {
+    columns_ = static_cast<std::int32_t>(tile_count(view.width));
+    rows_ = static_cast<std::int32_t>(tile_count(view.height));
+    const WindowView window(view);
     areas_.resize(open_faces.size());
     parallel_for(std::ssize(open_faces), 1024, [&](std::int64_t i) {
         const auto face = static_cast<std::size_t>(i);
-        areas_[face] = area_of(open_faces[face]);
+        areas_[face] = area_of(mesh.corners(open_faces[face]), window);
     });
     const auto for_each_tile = [&](const auto& visit) {
         for (std::size_t face = 0; face < areas_.size(); ++face) {
-            const Area& area = areas_[face];
+            const PixelArea& area = areas_[face];
             for (std::int32_t row = area.first_row; row <= area.last_row; ++row)
                 for (std::int32_t column = area.first_column; column <= area.last_column; ++column)
-                    visit(static_cast<std::size_t>(row * columns + column), face);
+                    visit(static_cast<std::size_t>(row * columns_ + column), face);
         }
     };
-    ends_.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
+    ends_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
     for_each_tile([&](std::size_t tile, std::size_t) { ++ends_[tile]; });
     tiles.clear();
     std::uint32_t listed = 0;
@@ -135,7 +140,7 @@ void EntryTiles::list(const TetMesh& mesh, std::span<const TetFace> open_faces, 
         const std::uint32_t count = std::exchange(ends_[tile], listed);
         if (count == 0) continue;
         const auto place = static_cast<std::uint32_t>(tile);
-        const auto across = static_cast<std::uint32_t>(columns);
+        const auto across = static_cast<std::uint32_t>(columns_);
         tiles.push_back({place % across * size, place / across * size, listed, listed + count});
         listed += count;
     }
@@ -160,8 +165,14 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     pixels_ = gl::Buffer(pixels * 4 * sizeof(float));
     pixels_.clear();
+    constexpr std::size_t ray_bytes = 64, pixels_of_tile = EntryTiles::size * EntryTiles::size;
+    rays_ = gl::Buffer(std::min(most_tiles, tile_count(width) * tile_count(height)) *
+                       pixels_of_tile * ray_bytes);
     unfinished_ = gl::Buffer(sizeof(std::uint32_t));
-    upload_mesh();
+    const Stage uploading("upload mesh");
+    upload_tets();
+    upload_points();
+    upload_faces();
 }
 
 // Marks the tets that show nothing, and lists the faces by which rays enter. Rays leave the mesh at
@@ -186,15 +197,14 @@ std::vector<char> GlMeshWalk::choose_faces() {
     }
     const auto hidden_tets = std::ranges::count(hidden, 1);
     tets_drawn_ = std::ssize(hidden) - hidden_tets;
-    around_hidden_ = std::ssize(faces_) - std::ssize(mesh.open_faces()) < hidden_tets;
+    around_hidden_ =
+        !faces_.empty() && std::ssize(faces_) - std::ssize(mesh.open_faces()) < hidden_tets;
     if (!around_hidden_) faces_.assign(mesh.open_faces().begin(), mesh.open_faces().end());
     return hidden;
 }
 
-void GlMeshWalk::upload_mesh() {
-    const Stage uploading("upload mesh");
+void GlMeshWalk::upload_tets() {
     const TetMesh& mesh = mesh_.mesh;
-    const auto& values = mesh_.scalar.values;
     const std::vector<char> hidden = choose_faces();
     std::vector<std::uint32_t> combined(mesh.tets().size());
     std::vector<Texel> neighbors(mesh.tets().size()), corners;
@@ -218,7 +228,11 @@ void GlMeshWalk::upload_mesh() {
     tets_ = make_texels(combined);
     neighbors_ = make_texels(neighbors);
     if (!corners.empty()) corners_ = make_texels(corners);
+}
 
+void GlMeshWalk::upload_points() {
+    const TetMesh& mesh = mesh_.mesh;
+    const auto& values = mesh_.scalar.values;
     const double per_scalar = 1 / (plan_.range.hi - plan_.range.lo);
     std::vector<Texel> texels(mesh.points().size());
     for (std::size_t i = 0; i < mesh.points().size(); ++i) {
@@ -240,8 +254,11 @@ void GlMeshWalk::upload_mesh() {
                 std::bit_cast<std::uint32_t>(gradients_.at_points[i][static_cast<int>(axis)]);
     }
     if (plan_.lighting) gradient_texels_ = make_texels(texels);
+}
 
-    texels.resize(faces_.size());
+void GlMeshWalk::upload_faces() {
+    const TetMesh& mesh = mesh_.mesh;
+    std::vector<Texel> texels(faces_.size());
     for (std::size_t i = 0; i < texels.size(); ++i) {
         const TetFace& face = faces_[i];
         const auto of_face =
@@ -256,13 +273,10 @@ void GlMeshWalk::upload_mesh() {
 
 void GlMeshWalk::upload_tiles() {
     if (entries_.tiles.empty()) return;
-    constexpr std::size_t ray_bytes = 64, rays_in_tile = EntryTiles::size * EntryTiles::size;
     reserve(tiles_, 4, entries_.tiles.size());
     reserve(listed_faces_, 1, entries_.faces.size());
     tiles_.write(std::span(entries_.tiles));
     listed_faces_.write(std::span(entries_.faces));
-    const std::size_t bytes = entries_.tiles.size() * rays_in_tile * ray_bytes;
-    if (rays_.byte_count() < bytes) rays_ = gl::Buffer(bytes + bytes / 2);
 }
 
 void GlMeshWalk::set_view(const View& view) {
@@ -302,19 +316,21 @@ void GlMeshWalk::set_view(const View& view) {
 }
 
 void GlMeshWalk::draw(const View& view, Progress* progress) {
-    Stage listing("order");
+    Stage listing("geometry");
     entries_.list(mesh_.mesh, faces_, view);
     upload_tiles();
     list_ms_ = listing.end();
     Stage drawing("draw");
     pixels_.clear();
-    if (!entries_.tiles.empty()) {
-        set_view(view);
+    if (!entries_.tiles.empty()) set_view(view);
+    for (std::size_t first = 0; first < entries_.tiles.size(); first += most_tiles) {
+        const std::size_t count = std::min(most_tiles, entries_.tiles.size() - first);
+        program_.set("first_tile", static_cast<int>(first));
         std::uint32_t unfinished = 1;
         for (int begins = 1; unfinished > 0; begins = 0) {
             program_.set("begins", begins);
             unfinished_.clear();
-            program_.dispatch(static_cast<int>(entries_.tiles.size()));
+            program_.dispatch(static_cast<int>(count));
             unfinished_.read(std::span(&unfinished, 1));
             check_interrupt();
         }
@@ -331,7 +347,7 @@ void GlMeshWalk::read(Image& image) const {
 }
 
 std::map<std::string, double> GlMeshWalk::stages_ms() const {
-    return {{"tables", table_ms_}, {"order", list_ms_}, {"draw", draw_ms_}};
+    return {{"tables", table_ms_}, {"geometry", list_ms_}, {"draw", draw_ms_}};
 }
 
 }  // namespace lamina

@@ -6,8 +6,10 @@
 #include "gl/api.h"
 #include "gl/program.h"
 #include "gl/texture.h"
+#include "mesh/face_tree.h"
 #include "projection/gl_project_renderer.h"
 #include "projection/project_renderer.h"
+#include "scene/camera.h"
 
 namespace lamina {
 
@@ -26,11 +28,13 @@ struct EntryTiles {
     void list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view);
 
   private:
-    struct Area {  // tiles, first to last (included)
-        std::int32_t first_column, last_column, first_row, last_row;
-    };
-    std::vector<Area> areas_;          // of each open face
-    std::vector<std::uint32_t> ends_;  // of each tile's list
+    // Bounds, in tiles, those whose rays may enter by a face: those around its corners, or all if
+    // it crosses the plane of the eye. Faces by which rays surely leave get none.
+    PixelArea area_of(const Triangle& face, const WindowView& window) const;
+
+    std::int32_t columns_ = 0, rows_ = 0;  // of tiles
+    std::vector<PixelArea> areas_;         // of each open face
+    std::vector<std::uint32_t> ends_;      // of each tile's list
 };
 
 // Returns the definitions of projection/walk.comp. `copies`: TetMesh::has_copies().
@@ -55,7 +59,9 @@ class GlMeshWalk : public ProjectRenderer {
 
   private:
     std::vector<char> choose_faces();
-    void upload_mesh();
+    void upload_tets();
+    void upload_points();
+    void upload_faces();
     void upload_tiles();
     void set_view(const View& view);
 

@@ -116,7 +116,9 @@ TEST(ShaderFiles, AreEmbeddedAsTheyAreOnDisk) {
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
         const std::string extension = entry.path().extension().string();
-        if (extension != ".vert" && extension != ".frag" && extension != ".glsl") continue;
+        if (extension != ".vert" && extension != ".frag" && extension != ".comp" &&
+            extension != ".glsl")
+            continue;
         std::ifstream file(entry.path(), std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(file), {}};
         const std::string name = std::filesystem::relative(entry.path(), root).generic_string();
