@@ -108,9 +108,10 @@ void walk(inout uint tet, inout Front front, inout int left, inout vec4 color) {
 #endif
     while (true) {
         --left;
+        if (color.a > opaque) return;
         if (through) {
             tet = passage.behind;
-            if (tet == no_tet || left <= 0 || color.a > opaque) return;
+            if (tet == no_tet || left <= 0) return;
             uint combined = texelFetch(tets, int(tet)).x;
             shown = (combined & hidden_tet) == 0u;
             passage = pass_through(tet, combined & ~hidden_tet, passage.from, front);
@@ -125,7 +126,7 @@ void walk(inout uint tet, inout Front front, inout int left, inout vec4 color) {
         bool rising = end.scalar >= from.scalar;
         float knot = rising ? interval_ends.y : interval_ends.x;
         if (rising ? end.scalar >= knot : end.scalar < knot) {
-            end = between(from, end, (knot - from.scalar) / (end.scalar - from.scalar));
+            end = between(from, end, abs(knot - from.scalar) / max(abs(end.scalar - from.scalar), 1e-37));
             end.scalar = knot;
             next_interval = rising ? 1 : -1;
         }

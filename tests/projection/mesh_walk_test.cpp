@@ -160,6 +160,17 @@ TEST_P(MeshWalk, EntersAgainBehindGaps) {
     EXPECT_LE(error, .01);  // in 1/255: sums of forty segments in float32
 }
 
+// A tet of optical depth 1e6 would be cut to 700,000 pieces if the ray did not end in the first.
+TEST_P(MeshWalk, EndsInAnOpaqueTet) {
+    const SceneMesh mesh = scene_mesh(
+        test::kuhn_box({2, 2, 2}, [](const glm::dvec3& p) { return .2 * p.x + .3 * p.z; }));
+    Scene scene = projection_scene(
+        TransferFunction::linear({knot(0, {1, 0, 0}, 1e6), knot(1, {0, 1, .5}, 2e6)}), 48, 48);
+    scene.camera->eye = {3, 4, 6};
+    scene.camera->center = {1, 1, 1};
+    EXPECT_LE(image_error(walk(mesh, scene), trace(mesh, scene)).all.linf, .05);
+}
+
 INSTANTIATE_TEST_SUITE_P(, MeshWalk, gl::both_contexts, gl::context_name);
 
 }  // namespace
