@@ -9,21 +9,12 @@
 //
 // No tet needs to be in order, and meshes may have rings, gaps and hollows. A dispatch takes `rounds` steps of a ray at
 // most and keeps its state for the next one. A workgroup draws a tile of 8 x 8 pixels, for which the open faces are
-// listed that its rays may enter. A piece ends at the tet's faces, at points of the transfer function (SOURCE_PARTS),
-// and at the near plane. Each takes a round of the one loop: software rasterisers skip no branches, and an inner loop
-// costs them more than a piece.
+// listed that its rays may enter. A piece ends at the tet's faces, at points of the transfer function and where it gets
+// deep (SOURCE_PARTS), and at the near plane. Each takes a round of the one loop: software rasterisers skip no
+// branches, and an inner loop costs them more than a piece.
 layout(local_size_x = 64) in;
 
-#define SOURCE_CONSTANT 0
-#define SOURCE_TABLE 1
-#define SOURCE_PARTS 2
-#define SOURCE_CUT_TABLE 3
-#define SOURCE_ANALYTIC 4
-#define SOURCE_MEAN 5
-#define SOURCE_VERTICES 6
-#if SOURCE == SOURCE_CONSTANT
-uniform vec4 constant_optics;  // colour, extinction
-#endif
+#include "projection/sources.glsl"
 #include "projection/walk_mesh.glsl"
 
 struct FragmentSegment {
@@ -45,9 +36,9 @@ OPTICS low_optics, high_optics;
 // The ray of a pixel between two dispatches.
 struct Ray {
     uvec4 front;         // corners of the face by which it enters the next tet; the tet, or no_tet
-    uint last_entry;      // the open face by which it entered the mesh last, or no_tet
-    uint entries_left;    // open faces by which it enters behind that one; 1 if they are not counted
-    double entry_depth;   // of the last entry
+    uint last_entry;     // the open face by which it entered the mesh last, or no_tet
+    uint entries_left;   // open faces by which it enters behind that one; 1 if they are not counted
+    double entry_depth;  // of the last entry
     // The search for the next entry: listed faces that are done, entries among them, and the first of these.
     uint searched, entries;
     double first_depth;
@@ -57,12 +48,12 @@ layout(std430, binding = 0) buffer Pixels { vec4 pixels[]; };  // associated col
 layout(std430, binding = 1) buffer Rays { Ray rays[]; };       // 64 a tile
 layout(std430, binding = 2) buffer Unfinished { uint unfinished; };
 
-uniform usamplerBuffer tiles;         // first column, first row, first and last + 1 entry of `listed`
+uniform usamplerBuffer tiles;         // first column, first row, first and last + 1 entry of `listed_faces`
 uniform usamplerBuffer listed_faces;  // numbers of open faces
-uniform int first_tile;  // of the dispatch
+uniform int first_tile;               // of the dispatch
 uniform ivec2 image_size;
-uniform bool begins;   // this is the first dispatch of the picture
-uniform int rounds;    // fewer than software rasterisers allow for all loops of an invocation together
+uniform bool begins;        // this is the first dispatch of these tiles
+uniform int rounds;         // fewer than software rasterisers allow for all loops of an invocation together
 uniform double near_depth;  // from the mesh's center
 
 // Opacity above which nothing behind can be seen: it hides all but 1e-6 of it, or 2.6e-4 / 255.

@@ -15,8 +15,7 @@ uniform usamplerBuffer gradients;  // of points
 #endif
 uniform usamplerBuffer open_faces;
 
-uniform dvec3 place_steps;
-
+uniform dvec3 place_steps;       // lengths
 uniform dvec3 view_axes[3];      // unit vectors to the right, up and forward, in world space
 uniform dvec3 mesh_center;       // from the eye, along these axes
 uniform dvec2 image_middle;      // window coordinates
@@ -196,9 +195,9 @@ struct Passage {
 #endif
 };
 
-// Moves the ray through a tet: makes `front` the face by which it leaves. `entered`: where it enters. The fourth corner,
-// top, takes the place of the corner that is left behind: the ray leaves between the two corners for which the side of
-// the edge to the top turns from right to left.
+// Moves the ray through a tet: makes `front` the face by which it leaves. `entered`: where it enters. The fourth
+// corner, top, takes the place of the corner that is left behind: the ray leaves between the two corners for which the
+// side of the edge to the top turns from right to left.
 Passage pass_through(uint tet, uint combined, Crossing entered, inout Front front) {
     Passage passage;
     Corner top = see(combined ^ front.a.point ^ front.b.point ^ front.c.point);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interval of the transfer function in which a walking ray's scalar lies. `low_optics` and `high_optics` (colour and
-// extinction, or extinction alone) hold at its ends.
+// The interval of the transfer function in which the scalar of a walking ray lies. At its ends `low_optics` and
+// `high_optics` hold: colour and extinction, or extinction alone.
 #include "optics/intervals.glsl"
 
 int interval;
