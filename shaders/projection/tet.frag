@@ -5,19 +5,9 @@
 #endif
 // Composites one fragment of projected tetrahedra over the target: the colour and opacity of the pixel's ray inside a
 // cell fragment. A cell fragment is a tet, or the region of one on which the transfer function is linear. FAN: it is
-// drawn as the triangles of Kraus 2004 (fan.vert), otherwise as its silhouette (silhouette.vert). SOURCE: the values of
-// SegmentSource (plan/plan.h), from which colour and opacity are computed. OPACITY_ONLY: draws opacity alone, for the
-// leaves of a compositing tree.
-#define SOURCE_CONSTANT 0
-#define SOURCE_TABLE 1
-#define SOURCE_PARTS 2
-#define SOURCE_CUT_TABLE 3
-#define SOURCE_ANALYTIC 4
-#define SOURCE_MEAN 5
-#define SOURCE_VERTICES 6
-#if SOURCE == SOURCE_CONSTANT
-uniform vec4 constant_optics;  // colour, extinction
-#endif
+// drawn as the triangles of Kraus 2004 (fan.vert), otherwise as its silhouette (silhouette.vert). OPACITY_ONLY: draws
+// opacity alone, for the leaves of a compositing tree.
+#include "projection/sources.glsl"
 #ifdef FAN
 #include "projection/fan.glsl"
 #else

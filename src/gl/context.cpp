@@ -95,6 +95,7 @@ void Context::initialise(LoadFunction load, const char* interface_name, bool sof
     capabilities_.subpixel_bits = integer(GL_SUBPIXEL_BITS);
     capabilities_.framebuffer_fetch = functions_->EXT_shader_framebuffer_fetch != 0;
     capabilities_.max_3d_texture_size = integer(GL_MAX_3D_TEXTURE_SIZE);
+    capabilities_.max_buffer_texels = integer(GL_MAX_TEXTURE_BUFFER_SIZE);
 
     // The log keeps only errors, for check(). Dithering would change codes of fixed-point targets.
     api().Enable(GL_DEBUG_OUTPUT);

@@ -192,4 +192,19 @@ void Texture::read_rgba(std::span<float> rgba) const {
     check("reading a texture back");
 }
 
+TexelBuffer::TexelBuffer(int components, std::size_t texels)
+    : buffer_(texels * static_cast<std::size_t>(components) * sizeof(std::uint32_t)) {
+    const auto most = static_cast<std::size_t>(integer(GL_MAX_TEXTURE_BUFFER_SIZE));
+    if (texels > most) fail("buffer of {} texels: this OpenGL allows {}", texels, most);
+    GLuint id = 0;
+    api().CreateTextures(GL_TEXTURE_BUFFER, 1, &id);
+    handle_ = Handle<ObjectKind::texture>(id);
+    api().TextureBuffer(id, components == 1 ? GL_R32UI : GL_RGBA32UI, buffer_.id());
+    check("making a buffer of texels");
+}
+
+void TexelBuffer::bind(unsigned unit) const {
+    api().BindTextureUnit(unit, handle_.id());
+}
+
 }  // namespace lamina::gl

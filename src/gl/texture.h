@@ -88,4 +88,25 @@ class Texture {
     AllocatedBytes bytes_;
 };
 
+// A buffer that shaders read as texels of one or four 32-bit integers (usamplerBuffer), for tables
+// that are too long for other textures. Undefined until written.
+class TexelBuffer {
+  public:
+    TexelBuffer() = default;
+    // `components`: 1 or 4. Throws Error if OpenGL allows fewer texels.
+    TexelBuffer(int components, std::size_t texels);
+
+    // Replaces the texels from the first on.
+    template <typename T, std::size_t extent>
+    void write(std::span<T, extent> elements) {
+        buffer_.write(elements);
+    }
+    void bind(unsigned unit) const;
+    std::size_t byte_count() const { return buffer_.byte_count(); }
+
+  private:
+    Buffer buffer_;
+    Handle<ObjectKind::texture> handle_;
+};
+
 }  // namespace lamina::gl

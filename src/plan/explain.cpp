@@ -126,7 +126,8 @@ void explain_projection(const ProjectPlan& project, const MeshFacts& facts, bool
     row("target", with_reason(name_of(project.target), project.target_reason));
     row("order", fmt::format("{}: the mesh is {}convex", name_of(project.visibility),
                              facts.convexity == Convexity::none ? "not " : ""));
-    row("geometry", tiles && project.geometry == ProjectGeometry::silhouette
+    row("geometry", project.walk ? "rays walk from tet to tet"
+                    : tiles && project.geometry == ProjectGeometry::silhouette
                         ? "where a ray enters and leaves a tet, pixel by pixel"
                         : name_of(project.geometry));
     row("interpolation", fmt::format("{}, thickness {}", name_of(project.interpolation),

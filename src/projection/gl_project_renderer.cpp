@@ -122,9 +122,19 @@ gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
     return defines;
 }
 
+void set_lit_view(const Lighting& lighting, const StoredGradients& gradients, double most_bend,
+                  gl::Program& program) {
+    set_lights(lighting, world_axes, program);
+    set_light_cuts(lighting, program);
+    program.set("light_limits", glm::vec2(gradients.smallest_square(lighting), most_bend));
+}
+
 GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan)
-    : plan_(plan), single_color_(first_color(transfer_function, plan.range.lo, plan.range.hi)) {
-    switch (plan.source) {
+    : plan_(plan),
+      source_(plan.walk && plan.source == SegmentSource::analytic ? SegmentSource::parts
+                                                                  : plan.source),
+      single_color_(first_color(transfer_function, plan.range.lo, plan.range.hi)) {
+    switch (source_) {
         case SegmentSource::constant:
             constant_ = transfer_function.at(plan.range.lo);
             break;
@@ -133,7 +143,10 @@ GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, cons
             upload(*table_);
             break;
         case SegmentSource::parts:
-            if (!plan.single_color) {
+            // A walk cuts segments to pieces that need no table.
+            if (plan.walk) {
+                intervals_.emplace(transfer_function, plan.range, nullptr, false, 0);
+            } else if (!plan.single_color) {
                 constexpr int nodes = FrontWeightTable::nodes;
                 texture_ = gl::Texture::make_2d(gl::TextureFormat::r32f, nodes, nodes);
                 texture_->upload({0, 0, 0, nodes, nodes, 1},
@@ -177,13 +190,17 @@ void GlProjectTables::upload(const UniformTable& table) {
 }
 
 void GlProjectTables::set_defines(gl::Defines& defines) const {
-    defines.set("SOURCE", static_cast<int>(plan_.source));
+    defines.set("SOURCE", static_cast<int>(source_));
     if (!plan_.single_color) defines.set("TABLE_COLORED", 1);
     if (plan_.table_filtered) defines.set("TABLE_FILTERED", 1);
-    if (plan_.source == SegmentSource::parts) {
-        defines.set("CUT", 1);
+    if (source_ == SegmentSource::parts) {
         defines.set("OPTICS", plan_.single_color ? "float" : "vec4");
-        defines.set("FRONT_WEIGHT_NODES", FrontWeightTable::nodes);
+        if (plan_.walk) {
+            defines.set("THIN", 1);
+        } else {
+            defines.set("CUT", 1);
+            defines.set("FRONT_WEIGHT_NODES", FrontWeightTable::nodes);
+        }
     }
     // At most one of `intervals_` and `table_` is set.
     if (intervals_) {
@@ -199,7 +216,7 @@ void GlProjectTables::set_defines(gl::Defines& defines) const {
 }
 
 void GlProjectTables::bind(gl::Program& program) const {
-    if (plan_.source == SegmentSource::constant) {
+    if (source_ == SegmentSource::constant) {
         const double extinction = std::min(constant_.extinction, max_shader_extinction);
         program.set("constant_optics", glm::vec4(constant_.color, extinction));
         return;
@@ -312,13 +329,10 @@ void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
     }
     if (plan_.blending == Blending::barrier) program.set("target", target_unit);
     if (!plan_.lighting) return;
-    set_lights(*plan_.lighting, world_axes, program);
+    set_lit_view(*plan_.lighting, gradients_, plan_.most_bend, program);
     const auto axis = [](const glm::dvec3& v) { return glm::vec4(glm::vec3(v), 0); };
     const std::array axes{axis(view.right), axis(view.up), axis(view.forward)};
     program.set("view_axes", std::span<const glm::vec4>(axes));
-    set_light_cuts(*plan_.lighting, program);
-    program.set("light_limits",
-                glm::vec2(gradients_.smallest_square(*plan_.lighting), plan_.most_bend));
 }
 
 void GlProjectRenderer::draw_cell_fragments(const DrawOrder<CellFragment>& cell_fragments,

@@ -16,6 +16,10 @@ bool has_program(const ProjectPlan& plan, FragmentKind kind);
 // Returns the definitions of projection/tet.frag and its vertex shader, except for the tables.
 gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind);
 
+// Sets the uniforms of a lit program, except view_axes.
+void set_lit_view(const Lighting& lighting, const StoredGradients& gradients, double most_bend,
+                  gl::Program& program);
+
 // The transfer function in the form that the fragments of tets read
 // (shaders/projection/tet_color.glsl). The plan must outlive it.
 class GlProjectTables {
@@ -25,11 +29,14 @@ class GlProjectTables {
     void set_defines(gl::Defines& defines) const;
     void bind(gl::Program& program) const;  // textures and uniforms
     const glm::vec3& single_color() const { return single_color_; }
+    int intervals() const { return intervals_ ? intervals_->intervals() : 0; }
 
   private:
     void upload(const UniformTable& table);
 
     const ProjectPlan& plan_;
+    // The plan's, but walks cut segments to pieces in place of integrating them at once (analytic).
+    SegmentSource source_;
     glm::vec3 single_color_;
     OpticalProperties constant_;
     std::shared_ptr<const UniformTable> table_;

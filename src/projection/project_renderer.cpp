@@ -3,6 +3,7 @@
 
 #include "base/profile.h"
 #include "projection/cpu_project_renderer.h"
+#include "projection/gl_mesh_walk.h"
 #include "projection/gl_project_renderer.h"
 #include "scene/camera.h"
 
@@ -15,7 +16,8 @@ ProjectRenderer::ProjectRenderer(const SceneMesh& mesh, const TransferFunction& 
       plan_(plan),
       pieces_(transfer_function_, plan.range),
       order_(std::move(ready)) {
-    const OrderMethod method = plan.nothing_visible ? OrderMethod::none : plan.visibility;
+    const OrderMethod method =
+        plan.nothing_visible || plan.walk ? OrderMethod::none : plan.visibility;
     if (!order_ || order_->method() != method)
         order_ = std::make_shared<VisibilityOrder>(mesh.mesh, method);
 }
@@ -35,6 +37,9 @@ std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
         return std::make_unique<CpuProjectRenderer>(mesh, transfer_function, plan, width, height,
                                                     ready.order);
     }
+    if (plan.walk)
+        return std::make_unique<GlMeshWalk>(mesh, transfer_function, plan, width, height,
+                                            ready.order);
     return std::make_unique<GlProjectRenderer>(mesh, transfer_function, plan, capabilities, width,
                                                height, ready.order, ready.stream);
 }

@@ -117,7 +117,8 @@ TEST(ShaderFiles, AreEmbeddedAsTheyAreOnDisk) {
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
         const std::string extension = entry.path().extension().string();
-        if (!std::set<std::string>{".vert", ".frag", ".comp", ".glsl"}.contains(extension)) continue;
+        if (!std::set<std::string>{".vert", ".frag", ".comp", ".glsl"}.contains(extension))
+            continue;
         std::ifstream file(entry.path(), std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(file), {}};
         const std::string name = std::filesystem::relative(entry.path(), root).generic_string();

@@ -120,7 +120,7 @@ TEST_P(Parts, OmitWhatShowsNothing) {
         EXPECT_TRUE(cell_fragment.piece == 1 || cell_fragment.piece == 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(BothEngines, Parts, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(Engines, Parts, every_engine, engine_name);
 
 }  // namespace
 }  // namespace lamina

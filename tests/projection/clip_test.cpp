@@ -195,7 +195,7 @@ TEST_P(Clipped, IrregularMeshMeetsTheTracer) {
         "split");
 }
 
-INSTANTIATE_TEST_SUITE_P(BothEngines, Clipped, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(Engines, Clipped, every_engine, engine_name);
 
 }  // namespace
 }  // namespace lamina

@@ -92,7 +92,7 @@ TEST_P(Conforming, GradedMeshesHaveNoCracks) {
     expect_constant(scene_mesh(test::split_box(4, 4000, 1e-4, zero)), 0.2, "graded");
 }
 
-INSTANTIATE_TEST_SUITE_P(BothEngines, Conforming, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(Engines, Conforming, every_engine, engine_name);
 
 }  // namespace
 }  // namespace lamina

@@ -95,7 +95,7 @@ class EyeInside : public ProjectionTest {
         }
     }
 };
-INSTANTIATE_TEST_SUITE_P(Projection, EyeInside, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(Projection, EyeInside, every_engine, engine_name);
 
 TEST_P(EyeInside, PicturesMatchTheTracer) {
     std::mt19937 random(9);

@@ -178,7 +178,7 @@ TEST_P(LitProjection, OtherTargetsAreLit) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(BothEngines, LitProjection, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(Engines, LitProjection, every_engine, engine_name);
 
 TEST(LitTets, EveryInstructionSetGivesTheSameBits) {
     const SceneMesh mesh = scene_mesh(test::split_box(11, 500, 1e-2, waves));

@@ -111,7 +111,7 @@ TEST_P(Markers, ChangeNothingWhereThereAreNone) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(BothEngines, Markers, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(Engines, Markers, every_engine, engine_name);
 
 TEST(FarScalars, ReachBeyondTheWindowOnlyIfTheyMeetIt) {
     const ValueRange window{10, 12};

@@ -53,7 +53,7 @@ TEST_P(Needles, ShowNothingIfTheyHaveNoWidth) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(, Needles, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(, Needles, every_engine, engine_name);
 
 }  // namespace
 }  // namespace lamina

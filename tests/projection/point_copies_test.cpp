@@ -128,7 +128,7 @@ TEST_P(PointCopies, WithJumpsKeepMaxErrorAgainstTheTracer) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(, PointCopies, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(, PointCopies, every_engine, engine_name);
 
 }  // namespace
 }  // namespace lamina

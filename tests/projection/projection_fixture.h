@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 
+#include "base/enum_words.h"
 #include "gl/gl_fixture.h"
 #include "image/difference.h"
 #include "plan/plan.h"
@@ -20,23 +21,28 @@
 
 namespace lamina {
 
-enum class Engine { opengl, tiles };
+// opengl: as planned, with compute shaders if the scene allows; rasterizer: OpenGL without them.
+enum class Engine { opengl, rasterizer, tiles };
 
 inline std::string engine_name(const testing::TestParamInfo<Engine>& info) {
-    return info.param == Engine::opengl ? "opengl" : "tiles";
+    return word_of(info.param, {"opengl", "rasterizer", "tiles"});
 }
 
-inline const auto both_engines = testing::Values(Engine::opengl, Engine::tiles);
+inline const auto every_engine = testing::Values(Engine::opengl, Engine::rasterizer, Engine::tiles);
 
-// Runs each test with OpenGL and with the cpu engine, by INSTANTIATE_TEST_SUITE_P(...,
-// both_engines, engine_name).
+// Runs each test with OpenGL, both ways, and with the cpu engine, by INSTANTIATE_TEST_SUITE_P(...,
+// every_engine, engine_name).
 class ProjectionTest : public gl::ContextTest<testing::TestWithParam<Engine>> {
   protected:
     void SetUp() override {
-        if (GetParam() == Engine::opengl) make_context(gl::ContextKind::osmesa);
+        if (GetParam() != Engine::tiles) make_context(gl::ContextKind::osmesa);
     }
     Capabilities capabilities() const {
-        return GetParam() == Engine::opengl ? ContextTest::capabilities() : cpu_capabilities();
+        if (GetParam() == Engine::tiles) return cpu_capabilities();
+        Capabilities found = ContextTest::capabilities();
+        found.software = false;  // lit meshes are drawn by compute shaders, too
+        if (GetParam() == Engine::rasterizer) found.max_buffer_texels = 0;
+        return found;
     }
 };
 
@@ -74,13 +80,9 @@ inline Plan plan_of(const SceneMesh& mesh, const Scene& scene, const Capabilitie
 inline std::unique_ptr<ProjectRenderer> make_renderer(const SceneMesh& mesh, const Scene& scene,
                                                       const Capabilities& capabilities,
                                                       const OmissionSwitch& omissions = {}) {
-    const Plan plan = plan_of(mesh, scene, capabilities, omissions);
-    if (capabilities.cpu) {
-        return std::make_unique<CpuProjectRenderer>(mesh, *scene.transfer_function, plan.project,
-                                                    scene.width, scene.height);
-    }
-    return std::make_unique<GlProjectRenderer>(mesh, *scene.transfer_function, plan.project,
-                                               capabilities, scene.width, scene.height);
+    return make_project_renderer(mesh, *scene.transfer_function,
+                                 plan_of(mesh, scene, capabilities, omissions).project,
+                                 capabilities, scene.width, scene.height);
 }
 
 inline Image project(const SceneMesh& mesh, const Scene& scene, const Capabilities& capabilities,

@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 
+#include "projection/gl_mesh_walk.h"
 #include "projection_fixture.h"
 
 namespace lamina {
@@ -144,6 +145,43 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
         plan.lighting = lit_plans().front().lighting;
         compile(plan, SegmentSource::parts, false, true, 1);
     }
+    const std::size_t drawn = seen.size();
+    const auto compile_walk = [&](ProjectPlan plan, SegmentSource source, bool single_color,
+                                  bool filtered) {
+        plan.walk = true;
+        plan.source = source;
+        plan.range = {0, 1};
+        plan.single_color = single_color;
+        plan.table_filtered = filtered;
+        TableRequest& request = plan.table.request;
+        request.colored = !single_color;
+        request.kind = source == SegmentSource::table ? TableKind::uniform : TableKind::knots;
+        request.scalar_nodes = 32;
+        request.length_layers = single_color ? 1 : 4;
+        plan.table.built = cache.get(transfer_function, request);
+        const GlProjectTables tables(transfer_function, plan);
+        for (const bool copies : {false, true}) {
+            const gl::Defines defines = walk_defines(plan, tables, copies);
+            if (!seen.insert(gl::compose_shader("projection/walk.comp", defines).text).second)
+                continue;
+            EXPECT_NO_THROW(gl::Program("projection/walk.comp", defines));
+        }
+    };
+    for (const SegmentSource source :
+         {SegmentSource::constant, SegmentSource::table, SegmentSource::parts,
+          SegmentSource::cut_table, SegmentSource::analytic}) {
+        for (const bool orthographic : {false, true})
+            for (const bool single_color : {false, true})
+                for (const bool filtered : {false, true}) {
+                    ProjectPlan plan;
+                    plan.orthographic = orthographic;
+                    compile_walk(plan, source, single_color, filtered);
+                }
+    }
+    for (const ProjectPlan& plan : lit_plans())
+        for (const SegmentSource source : {SegmentSource::parts, SegmentSource::analytic})
+            compile_walk(plan, source, false, true);
+    EXPECT_GT(seen.size(), drawn + 60);
     EXPECT_GT(seen.size(), unlit + 50);
     EXPECT_GT(unlit, 200u);
 }

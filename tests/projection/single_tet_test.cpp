@@ -156,7 +156,7 @@ TEST_P(SingleTet, TrianglesAndSilhouettesAgree) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(BothEngines, SingleTet, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(Engines, SingleTet, every_engine, engine_name);
 
 }  // namespace
 }  // namespace lamina

@@ -107,7 +107,7 @@ TEST_P(TetTree, DrawsEveryFrameAlike) {
     EXPECT_EQ(renderer->step_count(), 15);
 }
 
-INSTANTIATE_TEST_SUITE_P(BothEngines, TetTree, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(Engines, TetTree, every_engine, engine_name);
 
 }  // namespace
 }  // namespace lamina

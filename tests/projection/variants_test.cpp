@@ -144,7 +144,7 @@ TEST_P(Variants, EmulatedAgreesWithFixed16) {
               0.5);
 }
 
-INSTANTIATE_TEST_SUITE_P(BothEngines, Variants, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(Engines, Variants, every_engine, engine_name);
 
 }  // namespace
 }  // namespace lamina

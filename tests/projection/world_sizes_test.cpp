@@ -49,7 +49,7 @@ std::vector<Scene> scenes() {
 }
 
 using ProjectedWorldSizes = ProjectionTest;
-INSTANTIATE_TEST_SUITE_P(Projection, ProjectedWorldSizes, both_engines, engine_name);
+INSTANTIATE_TEST_SUITE_P(Projection, ProjectedWorldSizes, every_engine, engine_name);
 
 TEST_P(ProjectedWorldSizes, PowersOfTwoChangeNoBit) {
     const SceneMesh mesh = resized_mesh(1);

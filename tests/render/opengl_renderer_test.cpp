@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gl/context.h"
+#include "projection/gl_mesh_walk.h"
 #include "projection/gl_project_renderer.h"
 #include "render/draw_context.h"
 #include "render/scene_renderer.h"
@@ -221,11 +222,13 @@ TEST_F(OpenGlSession, TwoRenderersShareTheirPrograms) {
 
 TEST_F(OpenGlSession, MeshesKeepOrderBuffersAndPrograms) {
     const auto data = split_box();
+    Capabilities rasterizer = capabilities();
+    rasterizer.max_buffer_texels = 0;  // no walks
     for (const auto& geometry :
          {Auto<ProjectGeometry>(automatic), Auto<ProjectGeometry>(ProjectGeometry::triangles)}) {
         Scene scene = mesh_scene();
         scene.project.geometry = geometry;
-        SceneRenderer frames(scene, data, capabilities());
+        SceneRenderer frames(scene, data, rasterizer);
         frames.draw();
         for (int degrees = 30; degrees < 360; degrees += 30) {
             const Done before;
@@ -246,6 +249,21 @@ TEST_F(OpenGlSession, MeshesKeepOrderBuffersAndPrograms) {
         EXPECT_EQ(gl_renderer(frames).reusable().stream, stream);
         EXPECT_EQ(Done().programs_compiled, before.programs_compiled);
         expect_fresh(frames, data, frames.picture(), "another transfer function");
+    }
+}
+
+TEST_F(OpenGlSession, WalkedMeshesStayOnTheDevice) {
+    const auto data = split_box();
+    SceneRenderer frames(mesh_scene(), data, capabilities());
+    frames.draw();
+    EXPECT_NE(dynamic_cast<const GlMeshWalk*>(&frames.renderer()), nullptr);
+    for (int degrees = 30; degrees < 360; degrees += 60) {
+        const Done before;
+        frames.set_camera(orbit(degrees));
+        frames.draw();
+        EXPECT_EQ(Done(), before);
+        EXPECT_EQ(frames.counts().renderers, 1);
+        expect_fresh(frames, data, frames.picture(), std::to_string(degrees));
     }
 }
 
