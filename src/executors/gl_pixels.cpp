@@ -15,7 +15,7 @@ namespace {
 // storage block begins (OpenGL 4.5, table 23.65).
 constexpr int row_alignment = 64;
 
-constexpr int tile_edge = 8;  // of shaders/gl/pixels.glsl
+constexpr int tile_edge = 8;  // of shaders/gl/tile.glsl
 
 std::int64_t ceil_to(std::int64_t value, std::int64_t step) {
     return (value + step - 1) / step * step;

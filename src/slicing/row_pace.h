@@ -11,7 +11,7 @@ class RowPace {
     // Time in milliseconds for which rows are chosen: half of the most that a dispatch should take,
     // because the next view may show more.
     static constexpr double wanted_ms = 50;
-    static constexpr int tile_rows = 8;  // of shaders/gl/pixels.glsl
+    static constexpr int tile_rows = 8;  // of shaders/gl/tile.glsl
 
     // `band_rows`: most rows that fit the memory. `timed`: false for bands of so many rows.
     RowPace(int band_rows, bool timed) : band_rows_(band_rows), timed_(timed) {}
