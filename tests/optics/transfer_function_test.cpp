@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -133,6 +134,25 @@ TEST(TransferFunction, ConstantAndSingleColorLookOnlyAtTheInterval) {
     EXPECT_TRUE(f.constant(-7, 0));
     EXPECT_TRUE(f.constant_extinction(0, 1));
     EXPECT_FALSE(f.constant_extinction(0, 1.5));
+}
+
+// Labels make functions of so many knots that they are searched by blocks.
+TEST(TransferFunction, FindsTheLargestOfManyExtinctions) {
+    constexpr int count = 1500;
+    std::vector<TransferKnot> points;
+    for (int i = 0; i < count; ++i) points.push_back(knot(i, (7919 * i) % 1499));
+    const auto f = TransferFunction::nearest(points);
+    const auto thin = f.attenuated(.5);
+    for (int lo = 0; lo < count; lo += 37) {
+        double largest = 0;
+        for (int hi = lo; hi < count; ++hi) {
+            largest = std::max(largest, points[static_cast<std::size_t>(hi)].optics.extinction);
+            ASSERT_EQ(f.max_extinction(lo, hi), largest) << lo << " " << hi;
+            ASSERT_EQ(thin.max_extinction(lo, hi), .5 * largest) << lo << " " << hi;
+        }
+        EXPECT_TRUE(f.constant(lo - .4, lo + .4)) << lo;
+        EXPECT_FALSE(f.constant(lo - .4, lo + 1)) << lo;
+    }
 }
 
 }  // namespace
