@@ -139,7 +139,7 @@ class Volume:
 
     @property
     def labels(self) -> dict[int, tuple[int, str]]:
-        """What the file says of labels (docs/scene.md): the number and name of a label, by the value of its samples.
+        """Labels that the file tells of (docs/scene.md): the number and name of a label, by the value of its samples.
 
         Values are the file's numbers, as long as 16 bits hold them all.
         """

@@ -34,7 +34,7 @@ bool is_whole_label(T value) {
 //   - at least 95 % equal their six neighbours, and
 //   - so do at least half of all pairs of neighbours of which neither has the most frequent value:
 //     the inside of what a CT shows in empty air is noisy.
-// Of more than 2^24 samples, evenly spread slices are measured: of 2^22 samples, but at least 8.
+// Evenly spread slices are measured if there are more than 2^24 samples: of 2^22, but at least 8.
 std::optional<double> share_if_labels(const std::array<std::int64_t, 3>& size, ValueType type,
                                       const void* samples);
 // Measures a volume of whole numbers, which may stay in its files; others are not taken for labels.

@@ -405,9 +405,10 @@ Volume open_netcdf_classic(const std::filesystem::path& path, const VolumeReques
         path.string(),
         static_cast<std::uint64_t>(place.grid.sample_count()) * each + reader.scratch_bytes(), use,
         "classic NetCDF is read as a whole");
-    return drawn_volume(place.grid, {path.string(), values.type(), reader.read(values),
-                                     values.scale(), values.offset()},
-                        use.lookup);
+    return drawn_volume(
+        place.grid,
+        {path.string(), values.type(), reader.read(values), values.scale(), values.offset()},
+        use.lookup);
 }
 
 std::vector<std::filesystem::path> files_of_netcdf_classic(const std::filesystem::path& path) {

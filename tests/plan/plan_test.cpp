@@ -117,8 +117,8 @@ TEST(Plan, RaysAreDoubleInSoftwareAndForThinBoxes) {
     EXPECT_TRUE(plan_of(ramp, gpu).slice.precise_rays);
 }
 
-// llvmpipe ends the loops of an invocation after 65535 iterations. With a table a slab takes 2 + 4 +
-// 4 = 10 iterations or more: with n further knots in one cell of the search, 4 n more.
+// llvmpipe ends the loops of an invocation after 65535 iterations. With a table a slab takes 2 + 4
+// + 4 = 10 iterations or more: with n further knots in one cell of the search, 4 n more.
 TEST(Plan, SoftwareDispatchesMarchNoMoreSlabsThanLoopsAllow) {
     nlohmann::json document =
         with("/render/slice", {{"samples", 65536}, {"classification", "preintegrated"}});

@@ -46,7 +46,7 @@ def renderer_of(lamina):
 
 
 def problem(error):
-    """What a result has in place of figures: only programs that failed, not those that had no time, are a failure."""
+    """A result in place of figures: only programs that failed, not those that had no time, are a failure."""
     return {"missing" if isinstance(error, OutOfTime) else "error": str(error)}
 
 
