@@ -321,6 +321,7 @@ void GlMeshWalk::draw(const View& view, Progress* progress) {
     upload_tiles();
     list_ms_ = listing.end();
     Stage drawing("draw");
+    timeline_.begin("draw");
     pixels_.clear();
     if (!entries_.tiles.empty()) set_view(view);
     for (std::size_t first = 0; first < entries_.tiles.size(); first += most_tiles) {
@@ -335,10 +336,13 @@ void GlMeshWalk::draw(const View& view, Progress* progress) {
             check_interrupt();
         }
     }
+    timeline_.end();
     gl::api().Finish();
     gl::check("walking through a mesh");
     if (progress != nullptr) progress->advance();
+    drawing.count("tets", static_cast<double>(tets_drawn_));
     draw_ms_ = drawing.end();
+    timeline_.collect();
 }
 
 void GlMeshWalk::read(Image& image) const {

@@ -6,6 +6,7 @@
 #include "gl/api.h"
 #include "gl/program.h"
 #include "gl/texture.h"
+#include "gl/timeline.h"
 #include "mesh/face_tree.h"
 #include "projection/gl_project_renderer.h"
 #include "projection/project_renderer.h"
@@ -77,6 +78,7 @@ class GlMeshWalk : public ProjectRenderer {
     gl::TexelBuffer tets_, neighbors_, corners_, points_, gradient_texels_, open_faces_;
     gl::TexelBuffer tiles_, listed_faces_;
     gl::Buffer pixels_, rays_, unfinished_;
+    gl::Timeline timeline_;
     double list_ms_ = 0;
 };
 

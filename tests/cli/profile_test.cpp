@@ -50,10 +50,11 @@ class ProfileOption : public testing::Test {
     }
 
     // Renders with two more frames, checks what holds for every profile, and keeps the events.
-    void profile(const std::string& method, const std::string& context) {
+    void profile(const std::string& method, const std::string& context,
+                 const std::string& option = "--quiet") {
         const ProgramResult result =
             render({"--method", method, "--context", context, "--frames", "2", "--profile",
-                    folder / "p.json", "--stats", folder / "s.json"});
+                    folder / "p.json", "--stats", folder / "s.json", option});
         ASSERT_EQ(result.exit_code, 0) << result.err;
         const json document = json::parse(read_bytes_of(folder / "p.json"));
         stats = json::parse(read_bytes_of(folder / "s.json"));
@@ -207,8 +208,16 @@ TEST_F(ProfileOption, HasTheStagesOfProjectionByTheCpuEngine) {
 }
 
 TEST_F(ProfileOption, HasTheStagesOfProjectionByOpenGL) {
-    profile("project", "osmesa");
+    profile("project", "osmesa", "--no-omit=blending");
     expect_stages({"compile", "order", "sort", "parts", "geometry", "submit", "finish"});
+    EXPECT_TRUE(has_opengl());
+    check_opengl();
+}
+
+TEST_F(ProfileOption, HasTheStagesOfRaysThatWalk) {
+    profile("project", "osmesa");
+    expect_stages({"compile", "upload mesh", "geometry", "draw"});
+    EXPECT_TRUE(named("order").empty());
     EXPECT_TRUE(has_opengl());
     check_opengl();
 }
