@@ -252,8 +252,7 @@ class PlainRay {
         brightest_ *= 1 + lighting.ambient + lighting.diffuse * largest(sum);
         brightest_ += lighting.specular * largest(sum);
     }
-    // Returns a segment's ends and the places between: the scalar turns or meets a knot, or light
-    // has a kink, because the gradient is perpendicular to it or to the halfway vector.
+    // Returns a segment's ends, turns, knots, and kinks of light: gradients square to a light direction.
     std::vector<double> cuts(const Cubic<Field>& field) const {
         const auto along = [&c = field.c](const Field& v, double less) {
             return Cubic<double>{dot(c[0], v) - less, dot(c[1], v), dot(c[2], v), dot(c[3], v)};
@@ -262,10 +261,9 @@ class PlainRay {
         append_crossings(along({0, 0, 0, 1}, 0).slope(), found);
         const auto scalar = [&](double t) { return field.at(t).w; };
         const auto [least, most] = std::ranges::minmax(found, {}, scalar);
-        const double highest = scalar(most);
         const auto knots = scene_.transfer_function->knots();
-        for (auto knot = std::ranges::upper_bound(knots, scalar(least), {}, &TransferKnot::value);
-             knot != knots.end() && knot->value < highest; ++knot)
+        auto knot = std::ranges::upper_bound(knots, scalar(least), {}, &TransferKnot::value);
+        for (; knot != knots.end() && knot->value < scalar(most); ++knot)
             append_crossings(along({0, 0, 0, 1}, knot->value), found);
         for (const auto& [light, halfway, shone] : lights_)
             for (const glm::dvec3& v : {light, halfway}) append_crossings(along({v, 0}, 0), found);

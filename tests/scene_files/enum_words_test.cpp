@@ -47,7 +47,7 @@ void expect_numbers(const std::string& shader, const std::string& prefix) {
 TEST(EnumWords, HaveTheNumbersOfTheShaders) {
     expect_numbers<NodeCode>("compositing/node_code.glsl", "CODE_");
     expect_numbers<AlphaRounding>("compositing/codes.glsl", "ROUND_");
-    expect_numbers<SegmentSource>("projection/tet.frag", "SOURCE_");
+    expect_numbers<SegmentSource>("projection/sources.glsl", "SOURCE_");
     expect_numbers<LengthMapping>("preintegration/uniform_table.glsl", "MAPPING_");
     expect_numbers<TableStore>("preintegration/uniform_table.glsl", "STORE_");
 }
