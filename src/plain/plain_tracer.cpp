@@ -252,7 +252,7 @@ class PlainRay {
         brightest_ *= 1 + lighting.ambient + lighting.diffuse * largest(sum);
         brightest_ += lighting.specular * largest(sum);
     }
-    // Returns a segment's ends, turns, knots, and kinks of light: gradients square to a light direction.
+    // Returns a segment's ends, turns, knots, and kinks of light (gradients square to its vectors).
     std::vector<double> cuts(const Cubic<Field>& field) const {
         const auto along = [&c = field.c](const Field& v, double less) {
             return Cubic<double>{dot(c[0], v) - less, dot(c[1], v), dot(c[2], v), dot(c[3], v)};
