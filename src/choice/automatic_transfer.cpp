@@ -239,26 +239,28 @@ double extinction_of(double share) {
     return std::pow(std::max(share, .01), -.5);
 }
 
-// Returns the place of the label 0, else of the most frequent value.
+// Tells whether a value is a negative number of the file.
+bool is_negative(double value, const VolumeLabels* labels) {
+    if (labels == nullptr || !labels->renumbered) return value < 0;
+    const auto label = std::ranges::find(labels->list, value, &Label::code);
+    return label != labels->list.end() && label->number.starts_with('-');
+}
+
+// Returns the place of the background: of the most frequent value if it is negative, as programs
+// mark voxels without a label, else of the label 0, else of the most frequent value.
 std::size_t background_of(const ValueDistribution& values, const VolumeLabels* labels) {
-    const auto place_of = [&](double value) {
-        for (std::size_t i = 0; i < values.distinct(); ++i)
-            if (values.value(i) == value) return i;
-        return values.distinct();
-    };
-    if (labels != nullptr) {
-        const auto zero = std::ranges::find(labels->list, "0", &Label::number);
-        const bool listed = zero != labels->list.end();
-        const bool has_zero = listed || !labels->renumbered;
-        const std::size_t place = has_zero ? place_of(listed ? zero->code : 0) : values.distinct();
-        if (place < values.distinct()) return place;
-    }
-    std::size_t common = 0;
     const auto share = [&](std::size_t i) {
         return values.share(values.value(i), values.value(i));
     };
+    std::size_t common = 0;
     for (std::size_t i = 1; i < values.distinct(); ++i)
         if (share(i) > share(common)) common = i;
+    if (labels == nullptr || is_negative(values.value(common), labels)) return common;
+    const auto zero = std::ranges::find(labels->list, "0", &Label::number);
+    const bool listed = zero != labels->list.end();
+    if (!listed && labels->renumbered) return common;
+    for (std::size_t i = 0; i < values.distinct(); ++i)
+        if (values.value(i) == (listed ? zero->code : 0)) return i;
     return common;
 }
 

@@ -235,17 +235,19 @@ Volume narrowed(const Grid& grid, const StoredSamples& samples,
         if (type != SampleType::float32)
             return Volume(grid, type, filled(type, count, [&](auto i) { return from[i]; }));
     }
+    Grid voxels = grid;
     if (are_labels(grid, samples, lookup)) {
         if (auto volume = labelled<From>(grid, samples)) return *volume;
+        voxels.lookup = VolumeLookup::nearest;
         if (std::is_integral_v<From>)
             warn(fmt::format("{}: more than {} labels, which are drawn as numbers of type float",
                              samples.file, most_label_codes));
     }
-    if (std::is_same_v<From, float>) return Volume(grid, SampleType::float32, samples.bytes);
+    if (std::is_same_v<From, float>) return Volume(voxels, SampleType::float32, samples.bytes);
     const std::shared_ptr<void> memory =
         filled_memory(static_cast<std::size_t>(count) * sizeof(float));
     warn_of(round_samples(from, count, static_cast<float*>(memory.get())), samples, count);
-    return Volume(grid, SampleType::float32, memory);
+    return Volume(voxels, SampleType::float32, memory);
 }
 
 template <typename From>
