@@ -6,9 +6,7 @@ uniform ivec2 drawn_begin;  // column and row of the first pixel that is drawn; 
 uniform ivec2 drawn_end;    // behind the last one
 
 ivec2 pixel_of_invocation() {
-    int group = int(gl_WorkGroupID.x);
-    int tiles_across = (drawn_end.x - drawn_begin.x + 7) / 8;
-    return drawn_begin + 8 * ivec2(group % tiles_across, group / tiles_across) + pixel_in_tile();
+    return drawn_begin + 8 * ivec2(gl_WorkGroupID.xy) + pixel_in_tile();
 }
 
 // Tells whether a pixel is drawn: tiles at the edges have some that are not.

@@ -18,10 +18,10 @@ void take_interval(int number) {
     vec4 place = interval_place(number);
     left_end = place.x;
     inverse_width = place.y;
-    float right_end = texelFetch(intervals, ivec2(number, 3), 0).a;
+    float right_end = interval_texel(number, 3).a;
     interval_ends = vec2(number == 0 ? -3e38 : left_end, right_end);
-    low_optics = OPTICS_OF(texelFetch(intervals, ivec2(number, 1), 0));
-    high_optics = OPTICS_OF(texelFetch(intervals, ivec2(number, 2), 0));
+    low_optics = OPTICS_OF(interval_texel(number, 1));
+    high_optics = OPTICS_OF(interval_texel(number, 2));
 }
 
 float share_of_interval(float scalar) { return clamp((scalar - left_end) * inverse_width, 0.0, 1.0); }

@@ -81,7 +81,7 @@ void dispatch_pixels(gl::Program& program, const DrawnPixels& pixels) {
     program.set("drawn_begin", glm::ivec2(pixels.first_column, pixels.first_row));
     program.set("drawn_end", glm::ivec2(pixels.end_column, pixels.end_row));
     const auto tiles = [](int begin, int end) { return (end - begin + tile_edge - 1) / tile_edge; };
-    program.dispatch(tiles(pixels.first_column, pixels.end_column) *
+    program.dispatch(tiles(pixels.first_column, pixels.end_column),
                      tiles(pixels.first_row, pixels.end_row));
 }
 
@@ -101,9 +101,13 @@ void GlPixels::bind(unsigned binding, int first_row, int rows) const {
 
 void GlPixels::read(Image& image, double largest) const {
     image.resize(width_, height_);
+    const int words = words_of(packing_);
+    if (packing_ == PixelPacking::floats && row_words_ == words * width_) {
+        words_.read(std::span(image.rgba));
+        return;
+    }
     read_words_.resize(words_.byte_count() / sizeof(std::uint32_t));
     words_.read(std::span(read_words_));
-    const int words = words_of(packing_);
     for (int row = 0; row < height_; ++row) {
         const std::uint32_t* const from =
             read_words_.data() +

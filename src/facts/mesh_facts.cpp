@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "facts/volume_facts.h"
 #include "mesh/face_tree.h"
+#include "mesh/predicates.h"
 #include "mesh/ray_walk.h"
 #include "scene/camera.h"
 
@@ -146,6 +147,11 @@ void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
     facts.in_front = std::ranges::any_of(mesh.mesh.points(), [&](const glm::dvec3& point) {
         return glm::dot(point - view.eye, view.forward) > 0;
     });
+    constexpr double margin = 1e-6;  // of the diagonal: far more than rounding
+    facts.box_in_front = std::ranges::all_of(
+        box_corners(mesh.mesh.bounds().min, mesh.mesh.bounds().max), [&](const glm::dvec3& corner) {
+            return glm::dot(corner - view.eye, view.forward) > margin * facts.diagonal;
+        });
 }
 
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {

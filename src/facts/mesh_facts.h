@@ -45,7 +45,8 @@ struct MeshFacts {
 
     // The following describe the view.
     bool orthographic = false;
-    bool in_front = true;  // some point lies in front of the eye's plane
+    bool in_front = true;      // some point lies in front of the eye's plane
+    bool box_in_front = true;  // all of the mesh's box does
 
     // A segment of a ray inside one tet.
     struct Segment {

@@ -365,9 +365,9 @@ void Program::use() const {
     api().UseProgram(id());
 }
 
-void Program::dispatch(int groups) const {
+void Program::dispatch(int columns, int rows) const {
     use();
-    api().DispatchCompute(static_cast<GLuint>(groups), 1, 1);
+    api().DispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
     api().MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 

@@ -146,9 +146,9 @@ class Program {
 
     // Makes this the program of the draws that follow, with its uniforms.
     void use() const;
-    // Runs `groups` workgroups of a compute shader. Later dispatches see what it writes to storage
-    // blocks, and so does Buffer::read().
-    void dispatch(int groups) const;
+    // Runs `columns` times `rows` workgroups of a compute shader, at most 65535 each. Later
+    // dispatches see what it writes to storage blocks, and so does Buffer::read().
+    void dispatch(int columns, int rows = 1) const;
 
     // Set a uniform, or an array; the program need not be in use. A uniform of the source that this
     // specialisation does not use is ignored. Throw Error for a name that is not in the source.

@@ -290,6 +290,8 @@ struct ProjectPlanner {
     // between two tets, so that it does not matter what composites them. A walk has places of 32
     // bits and scalars of 24, which must resolve the shortest edge and the scalars that are shown.
     // In software, lit walks take 1.4 times as long as the rasteriser (docs/journal.md).
+    // Open faces that cross the eye's plane would be listed for all pixels, so the rasteriser draws
+    // meshes around the eye.
     bool choose_walk() const {
         constexpr double shortest = 0x1p-22;  // of the diagonal: 2^9 steps of places
         constexpr std::int64_t pixel_bytes = 16;
@@ -300,6 +302,7 @@ struct ProjectPlanner {
                plan.thickness == Thickness::exact && !plan.nothing_visible &&
                (plan.solve_rings || plan.single_color) && facts.overlapping_tets == 0 &&
                facts.shortest_edge > shortest * facts.diagonal && !plan.windowed &&
+               (facts.orthographic || facts.box_in_front) &&
                !has_narrow_pieces(*scene.transfer_function, drawn);
     }
 

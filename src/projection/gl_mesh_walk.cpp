@@ -38,7 +38,10 @@ int rounds_of(const ProjectPlan& plan, int intervals) {
     // Pieces of a lit segment are 1 / 256 of it or longer, and each may be shortened some times.
     if (plan.lighting) return most / 1000;
     // Three look-ups, and two searches for the interval of a scalar.
-    if (plan.source == SegmentSource::cut_table) return most / (8 + 2 * intervals);
+    if (plan.source == SegmentSource::cut_table) return std::max(most / (8 + 2 * intervals), 1);
+    // A search where a ray enters the mesh or a tet with values of its own.
+    if (plan.source == SegmentSource::parts || plan.source == SegmentSource::analytic)
+        return std::max(most / (2 + intervals), 1);
     return most / 2;
 }
 
