@@ -108,8 +108,7 @@ TEST_F(Render, StatsHaveAllKeysAndConsistentTimes) {
     EXPECT_LE(stats["frame_ms"]["min"], stats["frame_ms"]["median"]);
     EXPECT_LE(stats["frame_ms"]["median"], stats["frame_ms"]["max"]);
     EXPECT_EQ(stats["samples"], 60);
-    // One fragment a pixel: its shader marches through all slabs.
-    EXPECT_GT(stats["fragments"], 100);
+    EXPECT_EQ(stats["fragments"], 0);  // a compute shader marches through all slabs
     EXPECT_GT(stats["bytes_gpu"], 40 * 30 * 16);
     ASSERT_EQ(render({"-o", folder / "t.png", "--stats", folder / "t.json", "--method", "trace"})
                   .exit_code,

@@ -254,12 +254,15 @@ TEST_F(OpenGlSession, MeshesKeepOrderBuffersAndPrograms) {
 
 TEST_F(OpenGlSession, WalkedMeshesStayOnTheDevice) {
     const auto data = split_box();
-    SceneRenderer frames(mesh_scene(), data, capabilities());
+    constexpr double distance = 9;  // the whole mesh is in front of the eye
+    Scene scene = mesh_scene();
+    scene.camera = orbit(20, distance);
+    SceneRenderer frames(scene, data, capabilities());
     frames.draw();
     EXPECT_NE(dynamic_cast<const GlMeshWalk*>(&frames.renderer()), nullptr);
     for (int degrees = 30; degrees < 360; degrees += 60) {
         const Done before;
-        frames.set_camera(orbit(degrees));
+        frames.set_camera(orbit(degrees, distance));
         frames.draw();
         EXPECT_EQ(Done(), before);
         EXPECT_EQ(frames.counts().renderers, 1);

@@ -179,7 +179,9 @@ const std::vector<KrausItem>& kraus_items() {
 
 KrausStage::KrausStage(const Capabilities& capabilities, KrausSizes sizes,
                        std::filesystem::path data)
-    : capabilities_(capabilities), sizes_(std::move(sizes)), data_(std::move(data)) {}
+    : capabilities_(capabilities), sizes_(std::move(sizes)), data_(std::move(data)) {
+    capabilities_.max_buffer_texels = 0;  // the paper's tets are drawn by the rasteriser: no walks
+}
 
 std::filesystem::path KrausStage::data_folder() {
     const char* const data = std::getenv("LAMINA_DATA");
