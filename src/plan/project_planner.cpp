@@ -295,6 +295,7 @@ struct ProjectPlanner {
     bool choose_walk() const {
         constexpr double shortest = 0x1p-22;  // of the diagonal: 2^9 steps of places
         constexpr std::int64_t pixel_bytes = 16;
+        constexpr std::size_t most_points = 200;  // loops of software hold few searches in more
         return pixel_bytes * scene.width * scene.height <= capabilities.max_storage_bytes &&
                std::max(facts.tets, facts.points) <= capabilities.max_buffer_texels &&
                !(capabilities.software && scene.lighting) && plan.target == Target::float32 &&
@@ -303,6 +304,7 @@ struct ProjectPlanner {
                (plan.solve_rings || plan.single_color) && facts.overlapping_tets == 0 &&
                facts.shortest_edge > shortest * facts.diagonal && !plan.windowed &&
                (facts.orthographic || facts.box_in_front) &&
+               (!capabilities.software || scene.transfer_function->knots().size() <= most_points) &&
                !has_narrow_pieces(*scene.transfer_function, drawn);
     }
 

@@ -24,6 +24,7 @@
 
 #include "base/parallel.h"
 #include "base/profile.h"
+#include "gl/context.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -32,17 +33,17 @@ namespace {
 constexpr std::uint32_t hidden_tet = 0x80000000u;
 
 // Returns the number of rounds of a ray in one dispatch. Software rasterisers end all loops of an
-// invocation together after 65535 rounds, also those that integrate a segment, within a round.
+// invocation together after 65535 rounds, also those that integrate a segment, within a round. They
+// draw up to 16 rays at once: where these enter the mesh at different times, the rounds add up.
 int rounds_of(const ProjectPlan& plan, int intervals) {
-    constexpr int most = 65000;
+    if (!gl::current_context()->capabilities().software) return 65000;
+    constexpr int most = 65000 / 16, least = 16;
     // Pieces of a lit segment are 1 / 256 of it or longer, and each may be shortened some times.
-    if (plan.lighting) return most / 1000;
+    if (plan.lighting) return least;
     // Three look-ups, and two searches for the interval of a scalar.
-    if (plan.source == SegmentSource::cut_table) return std::max(most / (8 + 2 * intervals), 1);
+    if (plan.source == SegmentSource::cut_table) return std::max(most / (8 + 2 * intervals), least);
     // A search where a ray enters the mesh or a tet with values of its own.
-    if (plan.source == SegmentSource::parts || plan.source == SegmentSource::analytic)
-        return std::max(most / (2 + intervals), 1);
-    return most / 2;
+    return std::max(most / (2 + intervals), least);
 }
 
 // Largest number of tiles in one dispatch: 64 MiB of rays between two dispatches.
