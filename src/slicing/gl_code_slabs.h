@@ -15,20 +15,18 @@ inline constexpr int ranks_unit = GlSlabSource::first_free_unit;
 
 // Draws slabs for Target::emulated: a compute shader composites each ray's slabs on codes, in
 // registers. The picture is made in bands of rows.
-class GlCodeSlabs {
+class GlCodeSlabs : public GlMarchedPicture {
   public:
     // `source` and `plan` must outlive the object.
     GlCodeSlabs(const GlSlabSource& source, const SlicePlan& plan, const Capabilities& capabilities,
                 int width, int height);
 
-    int step_count() const { return height_; }  // steps that draw() reports: rows
-    // Must be called after source and plan have changed in what belongs to one view alone.
-    void take_plan();
-    void set_view(const View& view, const Slabs& slabs);
-    void clear() { picture_.clear(); }
-    // Composites onto the picture. Ctrl-C ends it between bands.
-    void draw(Progress* progress);
-    void read(Image& image) const;
+    int step_count() const override { return height_; }  // rows
+    void take_plan() override;
+    void set_view(const View& view, const Slabs& slabs) override;
+    void clear() override { picture_.clear(); }
+    void draw(Progress* progress) override;
+    void read(Image& image) const override;
 
   private:
     gl::Defines wanted_defines() const;

@@ -1,56 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slicing/gl_march.h"
 
-#include <glad/gl.h>
-
 #include <algorithm>
-#include <chrono>
-
-#include "base/client.h"
-#include "gl/api.h"
 
 namespace lamina {
-namespace {
-
-constexpr int tile_rows = RowPace::tile_rows;
-
-double ms_since(std::chrono::steady_clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-        .count();
-}
-
-int ceil_divide(int value, int divisor) {
-    return value / divisor + (value % divisor != 0 ? 1 : 0);
-}
-
-}  // namespace
-
-int rows_of_band(int height, int bands, std::int64_t most) {
-    const int wanted = ceil_divide(ceil_divide(height, bands), tile_rows) * tile_rows;
-    const std::int64_t fitting = most >= tile_rows ? most / tile_rows * tile_rows : most;
-    return static_cast<int>(std::min({fitting, std::int64_t{wanted}, std::int64_t{height}}));
-}
-
-void draw_bands(int height, RowPace& pace, const std::function<void(const RowBand&)>& draw) {
-    const auto frame = std::chrono::steady_clock::now();
-    for (int row = 0; row < height;) {
-        const auto begin = std::chrono::steady_clock::now();
-        const RowBand band{row, pace.next(height - row)};
-        draw(band);
-        if (pace.wants_time()) {
-            gl::api().Finish();
-            pace.took(band.rows, ms_since(begin));
-        }
-        check_interrupt();
-        row += band.rows;
-    }
-    if (!pace.timed()) return;
-    gl::api().Finish();
-    pace.frame_took(height, ms_since(frame));
-}
 
 int dispatches_of(const SlicePlan& plan, int slabs) {
-    return ceil_divide(slabs, plan.marched_slabs);
+    return slabs / plan.marched_slabs + (slabs % plan.marched_slabs != 0 ? 1 : 0);
 }
 
 void GlMarch::set_view(const View& view, const Slabs& slabs, Order order, gl::Program& program) {

@@ -1,31 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "base/client.h"
 #include "compositing/tree_shape.h"
 #include "executors/gl_pixels.h"
 #include "gl/program.h"
+#include "slicing/gl_row_bands.h"
 #include "slicing/gl_slab_source.h"
-#include "slicing/row_pace.h"
 #include "slicing/slab_geometry.h"
 
 namespace lamina {
-
-// Rows of a picture, row 0 at the top.
-struct RowBand {
-    int first_row = 0, rows = 0;
-};
-
-// Returns the largest number of rows, at most `height`, that take at most `most` times as many
-// bytes as a row, and which are of whole tiles of gl/pixels.glsl if they hold one. `bands`: into
-// how many bands the picture is to be divided at least.
-int rows_of_band(int height, int bands, std::int64_t most);
-
-// Draws a picture, band after band, by `draw(band)`. Ctrl-C ends it between bands.
-void draw_bands(int height, RowPace& pace, const std::function<void(const RowBand&)>& draw);
 
 // Tells compute shaders that march slabs (leaf.comp, codes.comp) which slabs of which bricks they
 // draw, in which pixels.
@@ -67,6 +54,21 @@ class GlMarch {
     std::vector<std::size_t> brick_order_;  // all bricks
     std::vector<SeenBrick> bricks_;         // in this order
     std::vector<Part> parts_;               // of the last span
+};
+
+// A picture that compute shaders march (GlShaderTree, GlCodeSlabs).
+class GlMarchedPicture {
+  public:
+    virtual ~GlMarchedPicture() = default;
+
+    virtual int step_count() const = 0;  // steps that draw() reports
+    // Must be called after source and plan have changed in what belongs to one view alone.
+    virtual void take_plan() = 0;
+    virtual void set_view(const View& view, const Slabs& slabs) = 0;
+    virtual void clear() = 0;
+    // Draws the picture, which must be clear. Ctrl-C ends it between dispatches.
+    virtual void draw(Progress* progress) = 0;
+    virtual void read(Image& image) const = 0;
 };
 
 // Returns the number of dispatches into which parts_of() divides slabs of one brick.

@@ -26,20 +26,18 @@ gl::Defines node_defines(const SlicePlan& plan, NodePlace place);
 // Draws a compositing tree whose nodes compute shaders compute in float, with colour
 // (docs/numerics.md, section 4). Leaves march their slabs; inner nodes read their children from
 // buffers. The picture is made in bands of rows, a complete tree each, so that buffers are small.
-class GlShaderTree {
+class GlShaderTree : public GlMarchedPicture {
   public:
     // `source` and `plan` must outlive the tree. Throws Error if a level's nodes do not fit.
     GlShaderTree(const GlSlabSource& source, const SlicePlan& plan,
                  const Capabilities& capabilities, int width, int height);
 
-    int step_count() const { return height_ * leaf_count_; }  // of draw(): rows of leaves
-    // Must be called after source and plan have changed in what belongs to one view alone.
-    void take_plan();
-    void set_view(const View& view, const Slabs& slabs);
-    void clear() { picture_.clear(); }
-    // Draws the picture, which must be clear. Ctrl-C ends it between leaves.
-    void draw(Progress* progress);
-    void read(Image& image) const;
+    int step_count() const override { return height_ * leaf_count_; }  // rows of leaves
+    void take_plan() override;
+    void set_view(const View& view, const Slabs& slabs) override;
+    void clear() override { picture_.clear(); }
+    void draw(Progress* progress) override;
+    void read(Image& image) const override;
 
   private:
     int count_leaves(int level, const SampleSpan& node) const;

@@ -17,14 +17,24 @@
 #include "base/profile.h"
 #include "gl/api.h"
 #include "scene/camera.h"
+#include "slicing/gl_code_slabs.h"
+#include "slicing/gl_shader_tree.h"
 #include "slicing/slab_geometry.h"
 
 namespace lamina {
 namespace {
 
-// Tells whether compute shaders draw the picture, and not the rasteriser.
-bool computes(const SlicePlan& plan) {
-    return plan.has_tree(NodeArithmetic::shader) || plan.blending == Blending::registers;
+// Uploads vertices for attributes 0 (position) and 1 (slab). The buffer grows if they do not fit.
+void upload_vertices(const std::vector<SlabVertex>& triangles, gl::Buffer& buffer,
+                     gl::VertexArray& vertex_array) {
+    const std::span<const SlabVertex> vertices(triangles);
+    if (vertices.size_bytes() > buffer.byte_count()) {
+        buffer = gl::Buffer(vertices);
+        vertex_array.set_floats(0, buffer, 2, sizeof(SlabVertex), offsetof(SlabVertex, column));
+        vertex_array.set_floats(1, buffer, 1, sizeof(SlabVertex), offsetof(SlabVertex, slab));
+    } else if (!vertices.empty()) {
+        buffer.write(vertices);
+    }
 }
 
 }  // namespace
@@ -38,18 +48,6 @@ gl::Defines slab_defines(const SlicePlan& plan, gl::Defines segments) {
     defines.set("DITHER_INCREMENT", plan.dither->increment);
     if (plan.dither->color) defines.set("DITHER_COLOR", 1);
     return defines;
-}
-
-void upload_vertices(const std::vector<SlabVertex>& triangles, gl::Buffer& buffer,
-                     gl::VertexArray& vertex_array) {
-    const std::span<const SlabVertex> vertices(triangles);
-    if (vertices.size_bytes() > buffer.byte_count()) {
-        buffer = gl::Buffer(vertices);
-        vertex_array.set_floats(0, buffer, 2, sizeof(SlabVertex), offsetof(SlabVertex, column));
-        vertex_array.set_floats(1, buffer, 1, sizeof(SlabVertex), offsetof(SlabVertex, slab));
-    } else if (!vertices.empty()) {
-        buffer.write(vertices);
-    }
 }
 
 GlSlabPass::GlSlabPass(const GlSlabSource& source, const SlicePlan& plan, int image_height)
@@ -140,22 +138,25 @@ GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& t
                                  const Capabilities& capabilities, int width, int height,
                                  std::shared_ptr<const GlVolume> ready)
     : plan_(plan), grid_(in_units(facts.grid, plan.unit)) {
-    if (plan_.nothing_visible || !computes(plan_))
+    const auto make_target = [&] {
         target_.emplace(gl::Texture::make_2d(color_format(plan), width, height));
+    };
     if (plan_.nothing_visible) {
+        make_target();
         kept_ = std::move(ready);
         return;
     }
     source_.emplace(volume, in_units(transfer_function, plan_.unit), facts, plan_,
                     std::move(ready));
     if (plan_.has_tree(NodeArithmetic::shader)) {
-        shader_tree_.emplace(*source_, plan_, capabilities, width, height);
+        marched_ = std::make_unique<GlShaderTree>(*source_, plan_, capabilities, width, height);
         return;
     }
     if (plan_.blending == Blending::registers) {
-        code_slabs_.emplace(*source_, plan_, capabilities, width, height);
+        marched_ = std::make_unique<GlCodeSlabs>(*source_, plan_, capabilities, width, height);
         return;
     }
+    make_target();
     slabs_.emplace(*source_, plan_, height);
     if (plan_.has_tree(NodeArithmetic::fixed)) {
         fixed_tree_.emplace(plan_, TreeShape(plan_.tree->factors, plan_.slabs),
@@ -172,22 +173,19 @@ bool GlSliceRenderer::try_switch_to(const Plan& plan) {
     if (plan_.nothing_visible) return true;
     source_->take_plan(plan_);
     if (slabs_) slabs_->take_plan();
-    if (shader_tree_) shader_tree_->take_plan();
-    if (code_slabs_) code_slabs_->take_plan();
+    if (marched_) marched_->take_plan();
     return true;
 }
 
 int GlSliceRenderer::step_count() const {
-    if (shader_tree_) return shader_tree_->step_count();
-    if (code_slabs_) return code_slabs_->step_count();
+    if (marched_) return marched_->step_count();
     if (fixed_tree_) return fixed_tree_->step_count();
     return slabs_ ? plan_.batches : 0;
 }
 
 void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
     const View view = in_units(world_view, plan_.unit);
-    if (shader_tree_) shader_tree_->clear();
-    if (code_slabs_) code_slabs_->clear();
+    if (marched_) marched_->clear();
     if (target_) {
         target_->bind();
         target_->clear(glm::vec4(0));
@@ -198,14 +196,12 @@ void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
     const DepthRange depth = depth_range(grid_, view);
     if (depth.far <= depth.near) return;
     const Slabs slabs{depth.near, depth.far, plan_.slabs};
-    if (shader_tree_) shader_tree_->set_view(view, slabs);
-    if (code_slabs_) code_slabs_->set_view(view, slabs);
+    if (marched_) marched_->set_view(view, slabs);
     if (slabs_) slabs_->set_view(view, slabs);
     geometry_ms_ = geometry.end();
     Stage drawing("draw");
     timeline_.begin("draw");
-    if (shader_tree_) shader_tree_->draw(progress);
-    if (code_slabs_) code_slabs_->draw(progress);
+    if (marched_) marched_->draw(progress);
     if (fixed_tree_) {
         fixed_tree_->draw(*slabs_, *target_, progress);
     } else if (slabs_) {
@@ -233,10 +229,8 @@ void GlSliceRenderer::draw_straight(Progress* progress) {
 }
 
 void GlSliceRenderer::read(Image& image) const {
-    if (shader_tree_) {
-        shader_tree_->read(image);
-    } else if (code_slabs_) {
-        code_slabs_->read(image);
+    if (marched_) {
+        marched_->read(image);
     } else {
         target_->read_back(image);
         if (plan_.emulation) decode(image, plan_);

@@ -3,8 +3,7 @@
 
 #include "executors/gl_compositing.h"
 #include "gl/timeline.h"
-#include "slicing/gl_code_slabs.h"
-#include "slicing/gl_shader_tree.h"
+#include "slicing/gl_march.h"
 #include "slicing/slice_renderer.h"
 
 namespace lamina {
@@ -46,10 +45,6 @@ class GlSlabPass : public TreeLeaves {
     std::vector<std::size_t> starts_;  // by brick: `starts` of append_slab_polygons()
 };
 
-// Uploads vertices for attributes 0 (position) and 1 (slab). The buffer grows if they do not fit.
-void upload_vertices(const std::vector<SlabVertex>& triangles, gl::Buffer& buffer,
-                     gl::VertexArray& vertex_array);
-
 // Draws a volume (gl_slice_renderer.cpp) in the current OpenGL context, which must outlive it.
 class GlSliceRenderer : public SliceRenderer {
   public:
@@ -76,14 +71,13 @@ class GlSliceRenderer : public SliceRenderer {
 
     SlicePlan plan_;
     Grid grid_;
-    // Empty if nothing is visible, except for target_. Otherwise either shader_tree_ or code_slabs_
-    // march the slabs, or slabs_ are blended onto target_ or are the leaves of fixed_tree_.
+    // Empty if nothing is visible, except for target_. Otherwise the picture is marched_, or slabs_
+    // are blended onto target_ or are the leaves of fixed_tree_.
     std::optional<gl::Framebuffer> target_;
     std::optional<GlSlabSource> source_;
     std::optional<GlSlabPass> slabs_;
     std::optional<GlFixedTree> fixed_tree_;
-    std::optional<GlShaderTree> shader_tree_;
-    std::optional<GlCodeSlabs> code_slabs_;
+    std::unique_ptr<GlMarchedPicture> marched_;
     gl::Timeline timeline_;
     std::shared_ptr<const GlVolume> kept_;  // for another renderer, if nothing is visible
     double geometry_ms_ = 0, draw_ms_ = 0;  // of the last frame

@@ -81,12 +81,13 @@ gl::Texture upload_gradients(const Volume& volume, const TextureBrick& brick, Pr
     return texture;
 }
 
-}  // namespace
-
+// Returns the bits of a sample in OpenGL's memory: 8 or 16 of a code, or 32 of a float.
 int stored_bits(const Volume& volume, const SlicePlan& plan) {
     if (plan.float_texture) return 32;
     return volume.type() == SampleType::uint8 ? 8 : 16;
 }
+
+}  // namespace
 
 GlVolume::GlVolume(const Volume& volume, const ValueRange& range, const SlicePlan& plan)
     : volume_(volume),

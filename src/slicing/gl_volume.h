@@ -34,7 +34,4 @@ class GlVolume {
     std::vector<gl::Buffer> words_;
 };
 
-// Returns the bits of a sample in OpenGL's memory: 8 or 16 of a code, or 32 of a float.
-int stored_bits(const Volume& volume, const SlicePlan& plan);
-
 }  // namespace lamina

@@ -87,7 +87,7 @@ TEST_P(MarchTest, DispatchesAndBricksKeepExactPictures) {
             GlSliceRenderer renderer(volume_, *scene.transfer_function, facts, plan.slice, each,
                                      scene.width, scene.height);
             renderer.draw(View(*scene.camera, scene.width, scene.height));
-            // What is behind the end of a ray, and the segments' own error (docs/precision.md).
+            // Rays that end early miss at most .002; the rest is the segments' own error.
             EXPECT_LE(linf(renderer.read(), expected), .002 + exact_segment_error) << slabs;
         }
     }

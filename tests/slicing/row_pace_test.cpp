@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "slicing/row_pace.h"
+#include "slicing/gl_row_bands.h"
 
 #include <gtest/gtest.h>
 

@@ -106,7 +106,7 @@ TEST(Labels, HaveNamesAndColoursByTheirNumbers) {
     EXPECT_FALSE(named.labels()->renumbered);
     EXPECT_EQ(named.labels()->list[0].name, "three");
     EXPECT_EQ(named.labels()->list[1].code, 7);
-    // Of a renumbered volume all labels are known.
+    // A renumbered volume lists all labels.
     const Volume codes = volume.labelled(
         std::make_shared<const VolumeLabels>(VolumeLabels{true, {{0, "-5"}, {7, "1000000007"}}}));
     const auto labels =

@@ -1,7 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <functional>
+
 namespace lamina {
+
+// Rows of a picture, row 0 at the top.
+struct RowBand {
+    int first_row = 0, rows = 0;
+};
+
+// Returns the largest number of rows, at most `height`, that take at most `most` times as many
+// bytes as a row, and which are of whole tiles of gl/pixels.glsl if they hold one. `bands`: into
+// how many bands the picture is to be divided at least.
+int rows_of_band(int height, int bands, std::int64_t most);
 
 // Chooses how many rows of a picture a GPU draws in one dispatch, by the time that rows took
 // before: drivers end programs that take seconds, and a desktop stands still until a dispatch is
@@ -32,5 +45,8 @@ class RowPace {
     int last_rows_ = 0;      // in the first frame
     double ms_per_row_ = 0;  // of the slowest rows so far
 };
+
+// Draws a picture, band after band, by `draw(band)`. Ctrl-C ends it between bands.
+void draw_bands(int height, RowPace& pace, const std::function<void(const RowBand&)>& draw);
 
 }  // namespace lamina
