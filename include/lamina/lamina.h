@@ -15,3 +15,4 @@
 #include "lamina/study.h"
 #include "lamina/transfer_function.h"
 #include "lamina/volume.h"
+#include "lamina/words.h"

@@ -14,6 +14,7 @@
 #include "lamina/sampling.h"
 #include "lamina/scene.h"
 #include "lamina/volume.h"
+#include "lamina/words.h"
 
 namespace lamina {
 
@@ -78,6 +79,9 @@ class LAMINA_API Session {
     // are not read.
     void set_scene(Scene scene);
     void choose_again();  // chooses all automatic values again
+    // Changes the scene by words (lamina/words.h), on top of what it was asked for. What is chosen
+    // with them, and all of camera, transfer function, lighting and clip, then counts as given.
+    void adjust(const Words& words);
 
     // Return the scene: as it was asked for (scene()), with transfer function and camera chosen
     // (chosen_scene()), and with all automatic values chosen (resolved_scene()). Saved as a file

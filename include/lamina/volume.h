@@ -26,13 +26,15 @@ enum class Centering { node, cell };
 // half a step around it; for labels, between which no other values lie.
 enum class VolumeLookup { linear, nearest };
 
-// Directions in a patient's body in which the world's x, y and z grow, if the file says so. In all
-// named ones z grows towards the head.
+// Directions in a patient's body in which the world's x, y and z grow, if the file says so: z then
+// grows towards the head. named: the file has names for its axes, which are x, y and z, and z is
+// up.
 enum class WorldAxes {
     unnamed,
     left_posterior_superior,
     right_anterior_superior,
-    left_anterior_superior
+    left_anterior_superior,
+    named
 };
 
 // Places of the samples of a regular grid in the world. In index space sample (i, j, k) lies at (i,

@@ -45,7 +45,7 @@ from ._transfer_function import TransferFunction
 from ._turntable import Turntable
 from ._volume import Volume
 
-colormaps = ("cividis", "cool-warm", "ct-bone", "ct-soft-tissue", "greys", "inferno", "viridis")
+colormaps = ("cividis", "cool-warm", "ct-angio", "ct-bone", "ct-lung", "ct-soft-tissue", "greys", "inferno", "viridis")
 
 __all__ = [
     "Camera", "Changes", "Comparison", "Error", "Keywords", "Light", "Lighting", "Mesh", "Norms", "Omission",

@@ -8,6 +8,7 @@ from ._picture import Picture
 from ._scene import scene_of
 from ._session import Progress, Session
 from ._volume import Path
+from ._words import take_words
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -22,6 +23,8 @@ def render(data: Any, transfer_function: Any = None, *, context: str = "auto", t
     ``data``: a ``Volume``, a ``Mesh``, an array, a scene (``Scene``, dictionary or file) or a data file. What is not said
     is chosen from the data. ``transfer_function``: a ``TransferFunction``, or what scene files have. Other keywords have
     the names of scene files (``Keywords``): ``camera``, ``size``, ``max_error``, ``method``, ``lighting``, ``clip``, ...
+    or are the command line's words: ``up``, ``view``, ``azimuth``, ``elevation``, ``zoom``, ``light``, ``clip``, ``crop``,
+    ``opacity``, ``preset``, ``cmap``, ``clim`` (``--range``), ``density``.
     ``context``, ``threads``, ``only_below``: as for ``Session``, which is quicker where several pictures are drawn of the
     same data. ``progress(activity, share)``: hears how far it is.
 
@@ -52,7 +55,11 @@ def trace(data: Any, transfer_function: Any = None, *, threads: int = 0, progres
     >>> picture.compare(truth).linf < 1
     True
     """
-    scene = scene_of(data, transfer_function, keywords, only_below)
+    keys, words = take_words(keywords)
+    scene = scene_of(data, transfer_function, keys, only_below)
     if scene._parsed().method == "project":
         scene.setdefault("render", {}).setdefault("trace", {}).setdefault("of", "mesh")
-    return Session(scene, threads=threads, only_below=only_below, method="trace").trace(progress)
+    session = Session(scene, threads=threads, only_below=only_below, method="trace")
+    if words:
+        session._adjust(words)
+    return session.trace(progress)

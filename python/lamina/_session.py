@@ -14,6 +14,7 @@ from ._scene import Scene, scene_of
 from ._turntable import Turntable
 from ._volume import Path, Volume
 from ._watched import CHANGED, Watched
+from ._words import take_words
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -45,10 +46,13 @@ class Session:
 
     def __init__(self, data: Any, transfer_function: Any = None, *, context: str = "auto", threads: int = 0,
                  many_frames: bool = False, only_below: Path | None = None, **keywords: Unpack[Keywords]) -> None:
-        self._scene = scene_of(data, transfer_function, keywords, only_below)
+        keys, words = take_words(keywords)
+        self._scene = scene_of(data, transfer_function, keys, only_below)
         self._options = context, threads, many_frames, self._scene._only_below
         self._changing = threading.RLock()
         self._read()
+        if words:
+            self._adjust(words)
 
     def _read(self) -> None:
         data = self._scene.data
@@ -95,9 +99,20 @@ class Session:
 
     def set(self, **keywords: Unpack[Changes]) -> None:
         """Changes keys of the scene, as ``Scene`` lists them, and ``transfer_function``. Settings of ``render`` choose what
-        is automatic again; ``camera``, ``size``, ``transfer_function`` and ``clip`` do not."""
+        is automatic again; ``camera``, ``size``, ``transfer_function`` and ``clip`` do not. Words (``view``, ``light``, ...)
+        change what the session has by then; camera, transfer function, lighting and clip are then written out."""
+        keys, words = take_words(keywords)
         with self._changing:
-            self._set(keywords)
+            if keys:
+                self._set(keys)
+            if words:
+                self._adjust(words)
+
+    def _adjust(self, words: dict[str, Any]) -> None:
+        chosen = json.loads(self._core.adjust(words).text())
+        for key in ("camera", "transfer_function", "lighting", "clip"):
+            if key in chosen:
+                self._scene[key] = chosen[key]
 
     def _set(self, keywords: Mapping[str, Any]) -> None:
         changed = self._scene._changed(keywords)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 #include <optional>
+#include <string>
+#include <type_traits>
 
 #include "bindings.h"
 #include "drawn.h"
@@ -72,6 +74,28 @@ constexpr auto clip = [](Session& session, const Scene& to) { session.set_clip(t
 constexpr auto everything = [](Session& session, const Scene& to) { session.set_scene(to); };
 constexpr auto again = [](Session& session) { session.choose_again(); };
 
+Words words_of(const py::dict& keywords) {
+    Words words;
+    for_each_word(words, [&](const char* name, auto& value) {
+        if (keywords.contains(name))
+            value = keywords[name].cast<std::remove_reference_t<decltype(value)>>();
+    });
+    return words;
+}
+
+// Changes the session by words. Returns the scene with what was chosen.
+Scene adjusted(SharedSession& session, const py::dict& keywords) {
+    const Words words = words_of(keywords);
+    Scene scene;
+    run_waiting([&](const std::stop_token&, const ProgressCallback&) {
+        scene = session.change([&](Session& changing) {
+            changing.adjust(words);
+            return changing.chosen_scene();
+        });
+    });
+    return scene;
+}
+
 }  // namespace
 
 void bind_session(py::module_& module) {
@@ -86,6 +110,7 @@ void bind_session(py::module_& module) {
         .def("set_transfer_function", &changed<transfer_function>, py::arg("to"))
         .def("set_clip", &changed<clip>, py::arg("to"))
         .def("set_scene", &changed<everything>, py::arg("to"))
+        .def("adjust", &adjusted, py::arg("words"))
         .def("choose_again",
              [](SharedSession& session) {
                  run_waiting([&](const std::stop_token&, const ProgressCallback&) {

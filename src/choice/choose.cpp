@@ -10,6 +10,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "choice/value_distribution.h"
+#include "choice/words.h"
 #include "image/coded_image.h"
 
 namespace lamina {
@@ -23,10 +24,10 @@ double largest_extinction(const TransferFunction& transfer_function) {
     return transfer_function.max_extinction(knots.front().value, knots.back().value);
 }
 
-std::vector<glm::dvec3> points_to_fit(const TransferFunction& transfer_function,
-                                      const Field& field) {
-    std::vector<glm::dvec3> points =
-        field.shown_points(transfer_function, seen_share * largest_extinction(transfer_function));
+std::vector<glm::dvec3> points_to_fit(const Scene& scene, const Field& field) {
+    const TransferFunction& transfer_function = *scene.transfer_function;
+    std::vector<glm::dvec3> points = field.shown_points(
+        transfer_function, seen_share * largest_extinction(transfer_function), scene.clip);
     if (!points.empty()) return points;
     const auto corners = field.corners();
     return {corners.begin(), corners.end()};
@@ -37,11 +38,11 @@ std::string vector_text(const glm::dvec3& v, double fineness) {
                        number_text(v.z, fineness));
 }
 
-std::string camera_text(const Camera& camera) {
+std::string camera_text(const Camera& camera, const std::string& orientation) {
     const double fineness = fineness_of(0, glm::distance(camera.eye, camera.center));
-    return fmt::format("camera: from {} to {}, up {}, fov_y {:.4g}",
+    return fmt::format("camera: from {} to {}, up {}, fov_y {:.4g}; {}",
                        vector_text(camera.eye, fineness), vector_text(camera.center, fineness),
-                       vector_text(camera.up, fineness_of(0, 1)), camera.fov_y);
+                       vector_text(camera.up, fineness_of(0, 1)), camera.fov_y, orientation);
 }
 
 // Returns the name of the data for messages: of their file, or "data" if they are in memory.
@@ -112,40 +113,14 @@ void choose_smallest_gradient(Choices& choices, const Field& field) {
 
 // Constants of the automatic camera (docs/first-picture.md). Angles are in degrees.
 constexpr double degree = std::numbers::pi / 180;
-constexpr double three_quarter_azimuth = 30, three_quarter_elevation = 20;
 constexpr double fov_y = 30;
 constexpr double margin = 1.0 / 25;  // margin of the picture as a share of its half
 // Least cosine between the data's up and the camera's; below it, the view is along the data's up.
 constexpr double least_across = 0.02;
 
-// A camera's own axes: right-handed and orthonormal.
-struct Axes {
-    glm::dvec3 right, up, toward;  // from the scene to the eye
-};
-
-// Returns the axes of a camera that looks at the data from in front. If the file names a patient's
-// axes, the camera stands in front of the patient: its right is the patient's left.
-Axes axes_of(WorldAxes axes) {
-    switch (axes) {
-        case WorldAxes::left_posterior_superior:
-            return {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
-        case WorldAxes::right_anterior_superior:
-            return {{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
-        case WorldAxes::left_anterior_superior:  // a left-handed world
-            return {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
-        case WorldAxes::unnamed:
-            return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    }
-    return {};
-}
-
-// Returns the axes of a camera moved right by the azimuth, then up by the elevation.
-Axes turned(const Axes& axes, const ViewTurn& turn) {
-    const double a = turn.azimuth * degree, e = turn.elevation * degree;
-    const glm::dvec3 right = std::cos(a) * axes.right - std::sin(a) * axes.toward;
-    const glm::dvec3 around = std::sin(a) * axes.right + std::cos(a) * axes.toward;
-    return {right, std::cos(e) * axes.up - std::sin(e) * around,
-            std::sin(e) * axes.up + std::cos(e) * around};
+// Returns a camera's `up`: the one that it had, unless the view is along it or beyond a pole.
+glm::dvec3 upright(const glm::dvec3& up, const Axes& axes) {
+    return glm::dot(up, axes.up) > least_across * glm::length(up) ? up : axes.up;
 }
 
 struct Extent {
@@ -188,7 +163,41 @@ bool leaves_something_open(const Scene& scene) {
            leaves_gradient_open(scene);
 }
 
-Choices choose(Scene asked, const Field& field, const Adjustments& adjustments) {
+namespace {
+
+// Replaces the extinctions by those of the wanted curve. Returns what was done, for people.
+std::string take_opacity(const Adjustments& adjustments, TransferFunction& transfer_function) {
+    const OpacityCurve& curve = *adjustments.opacity;
+    if (curve.form == OpacityCurve::Form::of_colormap) {
+        Colormap colormap = *adjustments.transfer.colormap;
+        const auto& range = adjustments.transfer.range;
+        if (range) stretch(colormap, range->lo, range->hi);
+        transfer_function = with_opacity_of(transfer_function, colormap);
+        return fmt::format("the preset {}", adjustments.opacity_word);
+    }
+    const ValueRange range = adjustments.transfer.range.value_or(shown_range(transfer_function));
+    transfer_function = with_opacity(transfer_function, curve, range);
+    return fmt::format("opacity {} from {:.6g} to {:.6g}", adjustments.opacity_word, range.lo,
+                       range.hi);
+}
+
+// Sets the directions of the wanted lights, for which the camera must be known, and says which
+// lights and clips were asked for.
+void add_lights(const Adjustments& adjustments, Choices& choices) {
+    Scene& scene = choices.scene;
+    if (adjustments.light && scene.lighting) {
+        scene.lighting->lights = lights_of(*adjustments.light, *scene.camera);
+        choices.reasons.push_back(
+            fmt::format("lighting: {}, as asked", name_of(*adjustments.light)));
+    }
+    if (!adjustments.clip.keeps_all())
+        choices.reasons.push_back(fmt::format("clip: {} planes{}, as asked",
+                                              scene.clip.planes.size(),
+                                              scene.clip.box ? " and a box" : ""));
+}
+
+// Chooses all but the lights.
+Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustments) {
     Choices choices{std::move(asked), {}};
     Scene& scene = choices.scene;
     choose_smallest_gradient(choices, field);
@@ -198,8 +207,12 @@ Choices choose(Scene asked, const Field& field, const Adjustments& adjustments) 
         fail("{}: all values are NaN or infinite, expected numbers to choose what shows by",
              name_of_data(scene));
     }
+    if (!adjustments.map_in_hu.empty()) {
+        expect_hounsfield_units(field.range(), *adjustments.transfer.colormap,
+                                adjustments.map_in_hu, name_of_data(scene));
+    }
     const bool chooses_function = scene.transfer_function.is_automatic();
-    const bool chooses_camera = scene.camera.is_automatic();
+    const bool chooses_camera = scene.camera.is_automatic() || adjustments.up || adjustments.side;
     std::string reason;
     if (chooses_function) {
         AutomaticTransfer chosen = choose_transfer_function(
@@ -217,14 +230,21 @@ Choices choose(Scene asked, const Field& field, const Adjustments& adjustments) 
         if (adjustments.transfer.colormap)
             changed = recolored(changed, *adjustments.transfer.colormap);
     }
+    if (adjustments.opacity) reason = take_opacity(adjustments, *scene.transfer_function);
+    std::string orientation;
     if (chooses_camera) {
-        scene.camera =
-            fitted_camera(points_to_fit(*scene.transfer_function, field), field.axes(),
-                          adjustments.turn, scene.width, scene.height, adjustments.all_around);
+        const Orientation from = orientation_of(field.axes(), field.corners(), adjustments.up);
+        orientation = from.reason;
+        if (adjustments.side) orientation += fmt::format("; view: {}", name_of(*adjustments.side));
+        ViewTurn turn = turn_to(adjustments.side.value_or(ViewSide::iso), from);
+        turn.azimuth += adjustments.turn.azimuth;
+        turn.elevation += adjustments.turn.elevation;
+        scene.camera = fitted_camera(points_to_fit(scene, field), from.front, turn, scene.width,
+                                     scene.height, adjustments.all_around);
     } else {
         scene.camera = turned(*scene.camera, adjustments.turn);
     }
-    if (chooses_function) {
+    if (chooses_function || adjustments.opacity) {
         scene.transfer_function = per_diagonal(*scene.transfer_function, field);
         const double density = density_of(scene, field);
         scene.transfer_function = scene.transfer_function->attenuated(density);
@@ -237,7 +257,15 @@ Choices choose(Scene asked, const Field& field, const Adjustments& adjustments) 
     scene.transfer_function =
         TransferFunction::linear({dense.knots().begin(), dense.knots().end()});
     scene.camera = zoomed(*scene.camera, adjustments.zoom);
-    if (chooses_camera) choices.reasons.push_back(camera_text(*scene.camera));
+    if (chooses_camera) choices.reasons.push_back(camera_text(*scene.camera, orientation));
+    return choices;
+}
+
+}  // namespace
+
+Choices choose(Scene asked, const Field& field, const Adjustments& adjustments) {
+    Choices choices = choose_unlit(std::move(asked), field, adjustments);
+    add_lights(adjustments, choices);
     return choices;
 }
 
@@ -250,15 +278,12 @@ std::string chosen_text(const std::vector<std::string>& reasons) {
 // Coordinates are right, up and depth along the view. An eye (R, U, D), with edges of slope s, sees
 // a point (r, u, d) if |r - R| <= s (d - D). So R lies between max(r - s d) + s D and min(r + s d)
 // - s D; at the largest possible D, the nearest eye, both are equal. Likewise for u and U.
-Camera fitted_camera(std::span<const glm::dvec3> points, WorldAxes axes, const ViewTurn& turn,
+Camera fitted_camera(std::span<const glm::dvec3> points, const Axes& front, const ViewTurn& turn,
                      int width, int height, bool all_around) {
-    const Axes to = turned(axes_of(axes), {three_quarter_azimuth + turn.azimuth,
-                                           three_quarter_elevation + turn.elevation});
+    const Axes to = turned(front, turn);
     Camera camera;
     camera.fov_y = fov_y;
-    // The camera's up is the data's, unless that is along the view, so turntables stand upright.
-    const glm::dvec3 up = axes_of(axes).up;
-    camera.up = glm::dot(up, to.up) > least_across ? up : to.up;
+    camera.up = upright(front.up, to);
     const double slope_up = std::tan(fov_y / 2 * degree) * (1 - margin);
     const double slope_right = slope_up * width / height;
     // Points are taken relative to their middle, so that a distant origin costs no precision.
@@ -298,7 +323,7 @@ Camera turned(const Camera& camera, const ViewTurn& turn) {
     const Axes around = turned(Axes{right, glm::cross(toward, right), toward}, turn);
     Camera result = camera;
     result.eye = camera.center + distance * around.toward;
-    result.up = around.up;
+    result.up = upright(camera.up, around);
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "base/parallel.h"
@@ -14,6 +15,7 @@
 #include "facts/volume_facts.h"
 #include "mesh/predicates.h"
 #include "optics/pieces.h"
+#include "scene/clip.h"
 #include "volume/range_answers.h"
 #include "volume/sample_source.h"
 #include "volume/volume_store.h"
@@ -286,6 +288,63 @@ std::vector<glm::dvec3> hull_of_shown_bricks(const Grid& grid, const MinMaxBrick
     return points;
 }
 
+double distance(const HalfSpace& half, const glm::dvec3& point) {
+    return glm::dot(half.normal, point - half.point) / glm::length(half.normal);
+}
+
+// Cuts a segment, so that no end is farther than `slack` beyond the half-space. Returns false if
+// all of it is.
+bool cut(const HalfSpace& half, double slack, glm::dvec3& a, glm::dvec3& b) {
+    const double at_a = distance(half, a) + slack, at_b = distance(half, b) + slack;
+    if (at_a < 0 && at_b < 0) return false;
+    if (at_a < 0) a += at_a / (at_a - at_b) * (b - a);
+    if (at_b < 0) b += at_b / (at_b - at_a) * (a - b);
+    return true;
+}
+
+// Returns what the half-space keeps of hull_of_shown_cells(): pairs of points, the ends of rows of
+// cells. A row at most a cell beyond the plane belongs to cells that the plane crosses; its points
+// are moved onto the plane, where a plane along the grid's axes cuts these cells. `cells`: the edge
+// of what the rows consist of.
+std::vector<glm::dvec3> kept_of(const std::vector<glm::dvec3>& pairs, const HalfSpace& half,
+                                const Grid& grid, double cells) {
+    const glm::dvec3 normal = glm::normalize(half.normal);
+    double slack = 0;
+    for (const glm::dvec3& step : grid.step) slack += cells * std::abs(glm::dot(normal, step));
+    std::vector<glm::dvec3> kept;
+    for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) {
+        glm::dvec3 ends[2] = {pairs[i], pairs[i + 1]};
+        if (!cut(half, slack, ends[0], ends[1])) continue;
+        for (const glm::dvec3& end : ends)
+            kept.push_back(end - std::min(distance(half, end), 0.) * normal);
+    }
+    return kept;
+}
+
+// Tells whether a corner of the tet is beyond one of the half-spaces.
+bool crosses(const std::vector<HalfSpace>& kept, std::span<const glm::dvec3> points,
+             const Tet& tet) {
+    return std::ranges::any_of(kept, [&](const HalfSpace& half) {
+        return std::ranges::any_of(tet, [&](std::int32_t corner) {
+            return distance(half, points[static_cast<std::size_t>(corner)]) < 0;
+        });
+    });
+}
+
+// Adds the ends of what the half-spaces keep of a tet's edges.
+void add_kept_edges(const std::vector<HalfSpace>& kept, std::span<const glm::dvec3> points,
+                    const Tet& tet, std::vector<glm::dvec3>& found) {
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            glm::dvec3 a = points[static_cast<std::size_t>(tet[i])];
+            glm::dvec3 b = points[static_cast<std::size_t>(tet[j])];
+            if (std::ranges::all_of(kept,
+                                    [&](const HalfSpace& half) { return cut(half, 0, a, b); }))
+                found.insert(found.end(), {a, b});
+        }
+    }
+}
+
 }  // namespace
 
 double VolumeField::spacing() const {
@@ -309,10 +368,15 @@ ValueDistribution VolumeField::distribution() const {
 }
 
 std::vector<glm::dvec3> VolumeField::shown_points(const TransferFunction& transfer_function,
-                                                  double least) const {
-    return hull_of_shown_cells(volume_, bricks_, [&](const ValueRange& range) {
-        return transfer_function.max_extinction(range.lo, range.hi) > least;
-    });
+                                                  double least, const Clip& clip) const {
+    const Grid& grid = volume_.grid();
+    const double cells = grid.sample_count() > large_volume ? static_cast<double>(edge) : 1;
+    std::vector<glm::dvec3> points =
+        hull_of_shown_cells(volume_, bricks_, [&](const ValueRange& range) {
+            return transfer_function.max_extinction(range.lo, range.hi) > least;
+        });
+    for (const HalfSpace& half : half_spaces(clip)) points = kept_of(points, half, grid, cells);
+    return points;
 }
 
 std::array<glm::dvec3, 8> VolumeField::corners() const {
@@ -325,6 +389,7 @@ std::array<glm::dvec3, 8> VolumeField::corners() const {
 std::vector<double> VolumeField::optical_depths(const Scene& scene) const {
     Facts facts;
     facts.grid = volume_.grid();
+    facts.clip = index_planes(scene.clip, facts.grid);
     measure_view(scene, facts);
     const bool large = volume_.grid().sample_count() > large_volume;
     const RaySampling sampling = large ? RaySampling{256, 256} : RaySampling{};
@@ -381,16 +446,21 @@ ValueDistribution MeshField::distribution() const {
 }
 
 std::vector<glm::dvec3> MeshField::shown_points(const TransferFunction& transfer_function,
-                                                double least) const {
+                                                double least, const Clip& clip) const {
     const auto points = mesh_.mesh.points();
+    const std::vector<HalfSpace> kept = half_spaces(clip);
     std::vector<char> shown(points.size());
+    std::vector<glm::dvec3> found;
     for (const Tet& tet : mesh_.mesh.tets()) {
         const ValueRange range = range_in(mesh_.scalar.values, tet);
         if (range.empty() || !(transfer_function.max_extinction(range.lo, range.hi) > least))
             continue;
+        if (crosses(kept, points, tet)) {
+            add_kept_edges(kept, points, tet, found);
+            continue;
+        }
         for (const std::int32_t corner : tet) shown[static_cast<std::size_t>(corner)] = 1;
     }
-    std::vector<glm::dvec3> found;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (shown[i] != 0) found.push_back(points[i]);
     }

@@ -22,7 +22,7 @@ class Field {
   public:
     virtual ~Field() = default;
 
-    virtual WorldAxes axes() const = 0;
+    virtual WorldAxes axes() const = 0;    // named for meshes: in simulations z is up
     virtual ValueRange range() const = 0;  // range of the finite values
     // Returns the world distance over which the data resolve changes: the least distance of samples
     // (infinite for a single one), or the mean edge of the tets.
@@ -35,9 +35,10 @@ class Field {
     // Returns the distribution of the finite values by volume. Large data are sampled evenly.
     virtual ValueDistribution distribution() const = 0;
 
-    // Returns points whose convex hull holds all extinction above `least` >= 0; empty if none is.
+    // Returns points whose convex hull holds all extinction above `least` >= 0 that the clip keeps,
+    // and little more; empty if there is none.
     virtual std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
-                                                 double least) const = 0;
+                                                 double least, const Clip& clip = {}) const = 0;
     virtual std::array<glm::dvec3, 8> corners() const = 0;
 
     // Returns the optical depths of about 1000 rays all over the scene's view; rays that miss the
@@ -62,8 +63,8 @@ class VolumeField : public Field {
     const VolumeLabels* labels() const override;
     double least_padding_share() const override { return least_padding; }
     ValueDistribution distribution() const override;
-    std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
-                                         double least) const override;
+    std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function, double least,
+                                         const Clip& clip = {}) const override;
     std::array<glm::dvec3, 8> corners() const override;
     std::vector<double> optical_depths(const Scene& scene) const override;
 
@@ -78,7 +79,7 @@ class MeshField : public Field {
   public:
     explicit MeshField(const SceneMesh& mesh) : mesh_(mesh) {}
 
-    WorldAxes axes() const override { return WorldAxes::unnamed; }
+    WorldAxes axes() const override { return WorldAxes::named; }
     ValueRange range() const override { return measure_range(mesh_.scalar.values).range; }
     double spacing() const override;                       // mean over the six edges of all tets
     bool whole_numbers() const override { return false; }  // false: tets interpolate values
@@ -87,8 +88,8 @@ class MeshField : public Field {
     // Tets count by their volume. A tet with a corner far from all other values (find_markers())
     // counts by its corners: values interpolated inside it were not measured.
     ValueDistribution distribution() const override;
-    std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
-                                         double least) const override;
+    std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function, double least,
+                                         const Clip& clip = {}) const override;
     std::array<glm::dvec3, 8> corners() const override;
     std::vector<double> optical_depths(const Scene& scene) const override;
 

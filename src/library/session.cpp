@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/profile.h"
 #include "choice/value_distribution.h"
+#include "choice/words.h"
 #include "lamina/sampling.h"
 #include "lamina/scene.h"
 #include "mesh/face_tree.h"
@@ -157,6 +158,13 @@ void Session::set_scene(Scene scene) {
 
 void Session::choose_again() {
     set_scene(scene());
+}
+
+void Session::adjust(const Words& words) {
+    parts_->run([&] {
+        Pipeline& pipeline = *parts_->pipeline;
+        pipeline.adjust(adjustments_of(words, pipeline.asked().color_space));
+    });
 }
 
 const Scene& Session::scene() const {

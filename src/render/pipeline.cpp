@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/profile.h"
 #include "choice/field.h"
+#include "choice/words.h"
 #include "facts/mesh_facts.h"
 #include "facts/volume_facts.h"
 #include "gl/api.h"
@@ -87,8 +88,17 @@ TracedPicture plainly_traced_picture(const Scene& scene, SceneData& data) {
     return scene.draws_mesh() ? trace(*data.mesh(scene)) : trace(data.volume(scene)->volume);
 }
 
+namespace {
+
+Scene adjusted(Scene scene, const Adjustments& adjustments) {
+    adjust_scene(scene, adjustments);
+    return scene;
+}
+
+}  // namespace
+
 Pipeline::Pipeline(Scene scene, SceneData data, PipelineOptions options)
-    : asked_(std::move(scene)),
+    : asked_(adjusted(std::move(scene), options.adjustments)),
       scene_(asked_),
       data_(std::move(data)),
       options_(std::move(options)) {}
@@ -124,9 +134,7 @@ Choices Pipeline::chosen() {
             data_.volume(scene)->volume.grid().lookup == VolumeLookup::nearest)
             settle_for_voxels(scene);
         data_.close_transfer_function(scene);
-        if (!leaves_something_open(scene) && !adjustments.transfer_function() &&
-            !adjustments.camera())
-            return {std::move(scene), {}};
+        if (!leaves_something_open(scene) && !adjustments.any()) return {std::move(scene), {}};
         // If the mesh is made from the volume, transfer function and camera are chosen for the
         // volume.
         const std::unique_ptr<Field> field =
@@ -184,7 +192,7 @@ void Pipeline::take(Choices next) {
 }
 
 void Pipeline::set_scene(Scene scene) {
-    asked_ = std::move(scene);
+    asked_ = adjusted(std::move(scene), options_.adjustments);
     // If an earlier scene's mesh was made from the volume and this scene's is a file, the file must
     // be read before chosen() looks at it.
     const bool reads_mesh = data_.makes_mesh(scene_) && !data_.makes_mesh(asked_);
@@ -196,6 +204,20 @@ void Pipeline::set_scene(Scene scene) {
     take(chosen());
     chosen_ = true;
     if (frames_) in_context([&] { frames_->set_scene(scene_); });
+}
+
+void Pipeline::adjust(const Adjustments& adjustments) {
+    const Scene asked = asked_;
+    options_.adjustments = adjustments;
+    try {
+        set_scene(asked);
+    } catch (...) {
+        options_.adjustments = {};
+        asked_ = asked;
+        throw;
+    }
+    options_.adjustments = {};
+    asked_ = scene_;
 }
 
 void Pipeline::set_camera(const Camera& camera) {

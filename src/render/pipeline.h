@@ -97,6 +97,8 @@ class Pipeline {
     // Replaces the scene by another one of the same data. Its files are not read, with one
     // exception: a mesh file, if the mesh was made from the volume before.
     void set_scene(Scene scene);
+    // Changes the scene that was asked for, and writes out what is chosen with these changes.
+    void adjust(const Adjustments& adjustments);
     void set_camera(const Camera& camera);
     void set_size(int width, int height);  // pixels, 1 or more
     void set_transfer_function(const TransferFunction& transfer_function);

@@ -99,7 +99,7 @@ void add_lighting(KeyTable<Scene>& scene) {
     Form<Lighting> form = object_form(table_of<lighting_keys>);
     form.read = [](JsonReader& reader, const std::string& key) {
         if (!reader.value(key).is_object())
-            reader.reject(key, "an object {...}, or nothing for colours as they are");
+            reader.reject(key, "an object {...} or true, or false for colours as they are");
         JsonReader object = reader.object(key);
         Lighting lighting;
         table_of<lighting_keys>().read(object, lighting);
@@ -107,9 +107,16 @@ void add_lighting(KeyTable<Scene>& scene) {
             object.fail_at(mistake->key, mistake->message);
         return lighting;
     };
-    scene.key("lighting", &Scene::lighting, optional_form(form),
-              "Emission is lit by the gradient of the scalar, on both of its sides; absent: "
-              "colours are shown as they are.");
+    Form<std::optional<Lighting>> lit = optional_form(form);
+    lit.read = [read = form.read](JsonReader& reader, const std::string& key) {
+        const nlohmann::json& value = reader.value(key);
+        if (!value.is_boolean()) return std::optional(read(reader, key));
+        return value.get<bool>() ? std::optional(Lighting{}) : std::nullopt;
+    };
+    lit.schema = {{"oneOf", KeyJson::array({{{"type", "boolean"}}, form.schema})}};
+    scene.key("lighting", &Scene::lighting, lit,
+              "Emission is lit by the gradient of the scalar, on both of its sides; true: with all "
+              "defaults; absent or false: colours are shown as they are.");
 }
 
 void image_keys(KeyTable<Scene>& keys) {

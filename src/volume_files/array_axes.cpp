@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "base/client.h"
@@ -151,6 +152,8 @@ class RoleFinder {
             else
                 axis_of(role) = static_cast<int>(i);
         }
+        is_named =
+            std::ranges::all_of(std::span(axes_).first(3), [](int axis) { return axis >= 0; });
         take_by_order();
         take("channel", axis_of(AxisRole::channel), request.channel);
         take("time", axis_of(AxisRole::time), request.time);
@@ -161,6 +164,7 @@ class RoleFinder {
     int axis_of(AxisRole role) const { return axes_[static_cast<std::size_t>(role)]; }
 
     ArrayPlace place;
+    bool is_named = false;  // x, y and z are known by names or attributes, not by their order
 
   private:
     int& axis_of(AxisRole role) { return axes_[static_cast<std::size_t>(role)]; }
@@ -358,6 +362,7 @@ ArrayPlace place_array(const DescribedArray& array, const VolumeRequest& request
         }
     }
     unite(array.name, place.grid, units);
+    if (roles.is_named) place.grid.axes = WorldAxes::named;
     check_grid(array.name, place.grid, {"coordinates", "coordinates"});
 
     constexpr std::int64_t most_listed = 10'000;  // a damaged header may promise any number

@@ -244,7 +244,7 @@ Json json_of(const Grid& grid) {
 Grid grid_in(const Json& json, const ZarrArray& array) {
     Grid grid;
     grid.origin = vector_in(json.at("origin"));
-    grid.axes = static_cast<WorldAxes>(std::clamp(json.at("axes").get<int>(), 0, 3));
+    grid.axes = static_cast<WorldAxes>(std::clamp(json.at("axes").get<int>(), 0, 4));
     grid.unit = json.value("unit", std::string());
     for (std::size_t axis = 0; axis < 3; ++axis) {
         grid.size[axis] = array.shape.at(2 - axis);

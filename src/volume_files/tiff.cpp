@@ -333,6 +333,7 @@ class TiffStack {
             grid.step[static_cast<std::size_t>(axis)] *= found_.spacing[axis];
         grid.origin = found_.origin;
         grid.unit = unit_word(found_.unit);
+        if (found_.writer == "OME") grid.axes = WorldAxes::named;
         check_grid(name_, grid, {"resolution", "resolution"});
         return grid;
     }

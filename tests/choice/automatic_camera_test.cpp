@@ -4,11 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
+#include "base/enum_words.h"
+#include "choice/orientation.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -43,6 +48,21 @@ std::vector<glm::dvec3> cloud(unsigned seed, const glm::dvec3& size, const glm::
     return points;
 }
 
+std::array<glm::dvec3, 8> box(const glm::dvec3& size) {
+    std::array<glm::dvec3, 8> corners;
+    for (unsigned corner = 0; corner < 8; ++corner)
+        corners[corner] = size * glm::dvec3(corner & 1, corner >> 1 & 1, corner >> 2);
+    return corners;
+}
+
+Orientation of_cube(WorldAxes axes, std::optional<UpAxis> up = {}) {
+    return orientation_of(axes, box({1, 1, 1}), up);
+}
+
+Axes front_of(WorldAxes axes) {
+    return of_cube(axes).front;
+}
+
 // Coordinates in the picture are quotients of sums of products. Each product has a rounding error
 // of 1e-16 of the cloud's distance from the origin, which is at most 1e3 times the cloud's size:
 // 1e-12 allows for 10 such errors.
@@ -53,7 +73,8 @@ TEST(FittedCamera, TwoOppositeEdgesTouchTheMargin) {
         const auto points =
             cloud(seed, {1, seed % 7 == 0 ? 40 : 2, seed % 5 == 0 ? .01 : 3}, {1000, -200, 0});
         const ViewTurn turn{37. * seed, 11. * seed};
-        const Reach reach(points, fitted_camera(points, WorldAxes::unnamed, turn, width, height));
+        const Reach reach(points,
+                          fitted_camera(points, front_of(WorldAxes::unnamed), turn, width, height));
         constexpr double edge = 1 - 1. / 25;
         EXPECT_LE(std::max({-reach.left, reach.right, -reach.down, reach.up}), edge + rounding);
         const bool sides =
@@ -76,7 +97,7 @@ TEST(FittedCamera, HoldsAllPointsInEveryViewOfATurntable) {
         const ViewTurn turn{37. * seed, 3. * seed - 80};
         const WorldAxes axes =
             seed % 2 == 0 ? WorldAxes::unnamed : WorldAxes::left_posterior_superior;
-        const Camera camera = fitted_camera(points, axes, turn, width, height, true);
+        const Camera camera = fitted_camera(points, front_of(axes), turn, width, height, true);
         constexpr double edge = 1 - 1. / 25;
         double most = 0;
         for (int view = 0; view < 720; ++view) {
@@ -90,7 +111,9 @@ TEST(FittedCamera, HoldsAllPointsInEveryViewOfATurntable) {
 
 glm::dvec3 toward_eye(WorldAxes axes) {
     const std::vector<glm::dvec3> points{{0, 0, 0}, {1, 1, 1}};
-    const Camera camera = fitted_camera(points, axes, {}, width, height);
+    const Orientation from = of_cube(axes);
+    const ViewTurn turn = turn_to(ViewSide::iso, from);
+    const Camera camera = fitted_camera(points, from.front, turn, width, height);
     return glm::normalize(camera.eye - camera.center);
 }
 
@@ -109,6 +132,64 @@ TEST(FittedCamera, LooksAtPatientsFromInFrontWithTheHeadUp) {
     EXPECT_TRUE(near(toward_eye(WorldAxes::unnamed), {lps.x, lps.z, -lps.y}));
 }
 
+// The rule of docs/first-picture.md: patients, then names of axes, then the longest axis.
+TEST(Orientation, FollowsTheFileThenTheLongestAxis) {
+    const auto up = [](WorldAxes axes, const glm::dvec3& size) {
+        return orientation_of(axes, box(size)).front.up;
+    };
+    const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    EXPECT_EQ(up(WorldAxes::left_posterior_superior, {9, 1, 1}), z);
+    EXPECT_EQ(up(WorldAxes::named, {9, 1, 1}), z);
+    EXPECT_EQ(up(WorldAxes::unnamed, {1, 1, 1.26}), z);
+    EXPECT_EQ(up(WorldAxes::unnamed, {1.26, 1, 1}), x);
+    EXPECT_EQ(up(WorldAxes::unnamed, {1, 1.26, 1}), y);
+    EXPECT_EQ(up(WorldAxes::unnamed, {1, 1, 1.24}), y);
+    EXPECT_EQ(up(WorldAxes::unnamed, {2, 1, 2}), y);
+    EXPECT_NE(orientation_of(WorldAxes::unnamed, box({1, 1, 2})).reason.find("z, the longest"),
+              std::string::npos);
+}
+
+TEST(Orientation, EveryAxisCanBeUpAndFrontsAreRightHanded) {
+    for (const auto& [word, axis] : enum_words<UpAxis>()) {
+        glm::dvec3 up(0);
+        up[word[1] - 'x'] = word[0] == '+' ? 1 : -1;
+        for (const WorldAxes world :
+             {WorldAxes::unnamed, WorldAxes::named, WorldAxes::right_anterior_superior}) {
+            const Orientation from = of_cube(world, axis);
+            EXPECT_EQ(from.front.up, up) << word;
+            EXPECT_EQ(glm::cross(from.front.right, from.front.up), from.front.toward) << word;
+            EXPECT_NE(from.reason.find(word), std::string::npos);
+        }
+    }
+    // As in ParaView: with +z up the eye is at -y.
+    EXPECT_EQ(of_cube(WorldAxes::unnamed, UpAxis::plus_z).front.toward, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(of_cube(WorldAxes::unnamed, UpAxis::plus_y).front.toward, glm::dvec3(0, 0, 1));
+    // A patient upside down is still seen from in front (+y in RAS).
+    const Orientation head = of_cube(WorldAxes::right_anterior_superior, UpAxis::minus_z);
+    EXPECT_EQ(head.front.toward, glm::dvec3(0, 1, 0));
+    EXPECT_TRUE(head.patient);
+    EXPECT_FALSE(of_cube(WorldAxes::right_anterior_superior, UpAxis::plus_y).patient);
+}
+
+TEST(Orientation, ViewsLookAtTheirSides) {
+    const Orientation from = of_cube(WorldAxes::named);  // right x, up z, front -y
+    const auto toward = [&](ViewSide side) {
+        return turned(from.front, turn_to(side, from)).toward;
+    };
+    const auto near = [](const glm::dvec3& a, const glm::dvec3& b) {
+        return glm::distance(a, b) < 1e-15;
+    };
+    EXPECT_TRUE(near(toward(ViewSide::front), {0, -1, 0}));
+    EXPECT_TRUE(near(toward(ViewSide::back), {0, 1, 0}));
+    EXPECT_TRUE(near(toward(ViewSide::left), {-1, 0, 0}));
+    EXPECT_TRUE(near(toward(ViewSide::right), {1, 0, 0}));
+    EXPECT_TRUE(near(toward(ViewSide::top), {0, 0, 1}));
+    EXPECT_TRUE(near(toward(ViewSide::bottom), {0, 0, -1}));
+    // The left of a patient is +x in LPS.
+    const Orientation patient = of_cube(WorldAxes::left_posterior_superior);
+    EXPECT_TRUE(near(turned(patient.front, turn_to(ViewSide::left, patient)).toward, {1, 0, 0}));
+}
+
 TEST(TurnedCamera, GoesAroundItsCenter) {
     Camera camera;
     camera.eye = {0, 0, 5};
@@ -119,6 +200,18 @@ TEST(TurnedCamera, GoesAroundItsCenter) {
     EXPECT_LT(glm::distance(above.eye, {0, 4, 1}), 1e-15);
     EXPECT_LT(glm::distance(above.up, {0, 0, -1}), 1e-15);
     EXPECT_EQ(turned(camera, ViewTurn{}).eye, camera.eye);  // bit for bit
+}
+
+// Its `up` stays, so that a turntable goes about the axis that was up before.
+TEST(TurnedCamera, KeepsItsUpUnlessItCrossesAPole) {
+    Camera camera;
+    camera.eye = {0, -5, 1};
+    camera.center = {0, 0, 1};
+    camera.up = {0, 0, 2};
+    EXPECT_EQ(turned(camera, ViewTurn{25, 40}).up, camera.up);
+    EXPECT_EQ(turned(camera, ViewTurn{25, -80}).up, camera.up);
+    const Camera beyond = turned(camera, ViewTurn{0, 120});
+    EXPECT_LT(glm::distance(beyond.up, {0, std::sin(2 * std::acos(-1.) / 3), -.5}), 1e-15);
 }
 
 TEST(ZoomedCamera, EnlargesThePicture) {

@@ -130,11 +130,19 @@ TEST(ShippedColormaps, PresetsForCtKeepTheirUnitsAndHaveOpacities) {
     }
     const auto bone = TransferFunction::linear(combine(load_colormap("ct-bone"), 1));
     EXPECT_TRUE(bone.transparent(-2000, 100));  // fat, muscle, blood
+    const auto angio = TransferFunction::linear(combine(load_colormap("ct-angio"), 1));
+    EXPECT_TRUE(angio.transparent(-2000, 100));
+    EXPECT_GT(angio.at(300).extinction, 0);  // blood with contrast medium
+    const auto lung = TransferFunction::linear(combine(load_colormap("ct-lung"), 1));
+    EXPECT_TRUE(lung.transparent(-2000, -1000));  // air
+    EXPECT_TRUE(lung.transparent(-200, 3000));    // what surrounds the lungs
+    EXPECT_GT(lung.at(-700).extinction, 0);
 }
 
 TEST(ShippedColormaps, NamesAreListedAndSuggested) {
-    const std::vector<std::string> expected{"cividis", "cool-warm", "ct-bone", "ct-soft-tissue",
-                                            "greys",   "inferno",   "viridis"};
+    const std::vector<std::string> expected{"cividis", "cool-warm",      "ct-angio", "ct-bone",
+                                            "ct-lung", "ct-soft-tissue", "greys",    "inferno",
+                                            "viridis"};
     EXPECT_EQ(colormap_names(), expected);
     for (const std::string& name : expected) EXPECT_TRUE(is_colormap_name(name));
     EXPECT_FALSE(is_colormap_name("jet"));

@@ -191,6 +191,27 @@ TEST(Document, TakesTheTransferFunctionChosenFromData) {
     EXPECT_EQ(document.scene().transfer_function->knots().size(), 2u);
 }
 
+TEST(Document, WordsAreOneStepThatTheSessionFills) {
+    Document document = opened();
+    const Scene before = document.scene();
+    const Revisions revisions = document.revisions();
+    document.adjust({.view = "left"}, "view left");
+    EXPECT_EQ(document.revisions().settings, revisions.settings + 1);
+    ASSERT_TRUE(document.words());
+    EXPECT_EQ(document.words()->view, "left");
+    Scene chosen = before;
+    chosen.camera->eye = {-9, 1, 1};
+    chosen.lighting = Lighting{};
+    document.take_chosen(chosen);
+    EXPECT_FALSE(document.words());
+    EXPECT_EQ(document.scene().camera->eye, chosen.camera->eye);
+    EXPECT_EQ(document.scene().lighting, chosen.lighting);
+    EXPECT_EQ(document.undo_name(), "view left");
+    document.undo();
+    EXPECT_EQ(document.scene().camera->eye, before.camera->eye);
+    EXPECT_FALSE(document.scene().lighting);
+}
+
 TEST(Document, ShowsOpacitiesOfAnOpenColormapForTheirUnitLength) {
     Document document;
     document.open(parse_scene(

@@ -120,6 +120,23 @@ TEST_F(DrawWorkers, TheFullPictureMatchesTheSession) {
     EXPECT_EQ(Session(load_scene(folder_ / "saved.json"), native).draw().rgba, next->full->rgba);
 }
 
+TEST_F(DrawWorkers, WordsAreThoseOfASession) {
+    request_.trace = false;
+    ask();
+    wait_full();
+    take_chosen();
+    const Words words{.view = "top", .light = "two", .opacity = "linear"};
+    request_.words = std::make_shared<const Words>(words);
+    ++request_.revisions.settings;
+    ask();
+    const auto adjusted = wait_full();
+    Session session(request_.scene, native);
+    session.adjust(words);
+    EXPECT_EQ(adjusted->full->rgba, session.draw().rgba);
+    EXPECT_TRUE(adjusted->chosen->lighting);
+    EXPECT_EQ(adjusted->chosen->camera->eye, session.chosen_scene().camera->eye);
+}
+
 TEST_F(DrawWorkers, TheNewestRequestWins) {
     ask();
     wait_full();

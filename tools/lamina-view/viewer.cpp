@@ -239,6 +239,7 @@ void Viewer::request_picture(double seconds) {
     if (!changed && !rests && !switched) return;
     if (changed) changed_at_ = seconds;
     requested_.revisions = document_.revisions();
+    requested_.words = document_.words();
     requested_.moving = changed && dragged;
     requested_.coarse = settings_.coarse;
     requested_.trace = settings_.trace;

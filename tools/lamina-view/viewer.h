@@ -74,6 +74,7 @@ class Viewer {
     void draw_menu();
     void draw_file_menu();
     void draw_view_menu();
+    void draw_look_menu();
     void draw_picture(float left, float top, float width, float height, float pixels);
     void take_comparison_key(int key);
     void draw_comparison();

@@ -59,6 +59,10 @@ void Viewer::draw_menu() {
         draw_view_menu();
         ImGui::EndMenu();
     }
+    if (ImGui::BeginMenu("Look")) {
+        draw_look_menu();
+        ImGui::EndMenu();
+    }
     if (ImGui::BeginMenu("Help")) {
         ImGui::MenuItem("Keys and pointer", "F1", &help_);
         ImGui::EndMenu();
@@ -102,6 +106,28 @@ void Viewer::draw_view_menu() {
     ImGui::MenuItem("Trace at rest", "T", &settings_.trace);
     ImGui::MenuItem("Size follows the window", nullptr, &document_.size_follows_window, there);
     ImGui::MenuItem("Panels", "Tab", &settings_.panels);
+}
+
+// The words of the command line that are one of a list (docs/first-picture.md).
+void Viewer::draw_look_menu() {
+    const bool there = document_.is_open() && document_.scene().camera.is_given();
+    const auto draw_words = [&](const char* title, const char* member, std::string Words::*word) {
+        if (!ImGui::BeginMenu(title, there)) return;
+        for (const std::string& known : known_words(member)) {
+            if (!ImGui::MenuItem(known.c_str())) continue;
+            Words words;
+            words.*word = known;
+            document_.adjust(std::move(words), std::string(member) + " " + known);
+        }
+        ImGui::EndMenu();
+    };
+    draw_words("See from", "view", &Words::view);
+    draw_words("Up", "up", &Words::up);
+    draw_words("Light", "light", &Words::light);
+    if (ImGui::MenuItem("No light", nullptr, false, there))
+        document_.edit([](Scene& scene) { scene.lighting.reset(); }, "no light");
+    draw_words("Opacity", "opacity", &Words::opacity);
+    draw_words("Preset", "preset", &Words::preset);
 }
 
 std::string Viewer::status() const {

@@ -8,10 +8,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <set>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 #include "base/client.h"
 #include "base/error.h"
@@ -67,16 +69,54 @@ void release_reserve() {
     throw std::bad_alloc();
 }
 
-// Throws UsageError for an unknown verb; CLI11 would only say that a subcommand is missing.
-void check_verb(const CLI::App& app, int argc, char** argv) {
-    if (argc < 2 || argv[1][0] == '-') return;
-    std::string verbs;
-    for (const CLI::App* const verb : app.get_subcommands({})) {
-        if (verb->get_name() == argv[1]) return;
-        verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+std::string verbs_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* const verb : app.get_subcommands({})) names.push_back(verb->get_name());
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// Tells whether the text names data that are there: a file or a folder, or an array in one.
+bool names_data(const std::string& text) {
+    std::error_code unknown;
+    return std::filesystem::exists(text, unknown) ||
+           std::filesystem::exists(text.substr(0, text.rfind(':')), unknown);
+}
+
+bool has_display() {
+    for (const char* const name : {"DISPLAY", "WAYLAND_DISPLAY"}) {
+        const char* const display = std::getenv(name);
+        if (display != nullptr && *display != '\0') return true;
     }
-    throw UsageError(fmt::format("{}: unknown verb, expected one of {} ({} --help shows the usage)",
-                                 argv[1], verbs, app.get_name()));
+    return false;
+}
+
+// Returns the arguments with the verb `view` before a file that stands without a verb. Throws
+// UsageError if it cannot be shown, and for an unknown verb: CLI11 would only say that a subcommand
+// is missing.
+std::vector<char*> with_verb(const CLI::App& app, int argc, char** argv) {
+    static char view[] = "view";
+    std::vector<char*> arguments(argv, argv + argc);
+    if (argc < 2 || argv[1][0] == '-') return arguments;
+    const std::string first = argv[1];
+    bool can_view = false;
+    for (const CLI::App* const verb : app.get_subcommands({})) {
+        if (verb->get_name() == first) return arguments;
+        can_view |= verb->get_name() == view;
+    }
+    if (!can_view || !names_data(first)) {
+        throw UsageError(
+            fmt::format("{}: unknown verb, expected one of {} ({} --help shows the usage)", first,
+                        verbs_of(app), app.get_name()));
+    }
+    const char* const problem = !has_display()                 ? "there is no display to show it on"
+                                : !find_program("lamina-view") ? "lamina-view is not installed"
+                                                               : nullptr;
+    if (problem != nullptr) {
+        throw UsageError(
+            fmt::format("{}: {}: lamina render {} -o a.png draws it", first, problem, first));
+    }
+    arguments.insert(arguments.begin() + 1, view);
+    return arguments;
 }
 
 int run(const Program& program, int argc, char** argv) {
@@ -92,9 +132,9 @@ int run(const Program& program, int argc, char** argv) {
         for (CLI::Option* const option : verb->get_options())
             if (option->get_positional()) option->type_name("");
     }
-    check_verb(app, argc, argv);
+    const std::vector<char*> arguments = with_verb(app, argc, argv);
     try {
-        app.parse(argc, argv);
+        app.parse(static_cast<int>(arguments.size()), arguments.data());
     } catch (const CLI::Success& success) {  // --help, --version
         std::ostringstream text;
         exit_code = app.exit(success, text, text);

@@ -19,7 +19,7 @@
 #include "base/json_text.h"
 #include "base/memory.h"
 #include "base/value_type.h"
-#include "optics/colormap.h"
+#include "choice/words.h"
 #include "output_files.h"
 #include "render/pipeline.h"
 #include "scene_files/keys.h"
@@ -73,24 +73,6 @@ std::pair<Number, Number> pair_of(const char* option, const std::string& text, c
         if (other == std::errc{} && stop == end) return {first, second};
     }
     throw UsageError(fmt::format("{} {}: expected {}", option, shortened(text), expected));
-}
-
-ValueRange range_of(const std::string& text) {
-    constexpr const char* expected = "LO,HI: two numbers with LO < HI, between -1e300 and 1e300";
-    const auto [lo, hi] = pair_of<double>("--range", text, ',', expected);
-    if (!(lo < hi && lo >= -1e300 && hi <= 1e300))
-        throw UsageError(fmt::format("--range {}: expected {}", shortened(text), expected));
-    return {lo, hi};
-}
-
-// Throws UsageError if the name is neither a map's nor a file's. A damaged file is an Error.
-Colormap colormap_of(const std::string& name_or_path, ImageColorSpace space) {
-    try {
-        return load_colormap(name_or_path, space);
-    } catch (const Error& error) {
-        if (std::filesystem::exists(name_or_path)) throw;
-        throw UsageError(fmt::format("--colormap {}", error.what()));
-    }
 }
 
 }  // namespace
@@ -217,67 +199,78 @@ nlohmann::ordered_json document_of(const Scene& scene, const nlohmann::json& doc
     return result;
 }
 
+namespace {
+
+constexpr const char* look = "Look";
+
+CLI::Option* add_word(CLI::App& verb, const char* name, auto& value, const char* text,
+                      const char* help) {
+    return verb.add_option(name, value, help)->option_text(text)->group(look);
+}
+
+void add_camera_words(CLI::App& verb, Words& words) {
+    add_word(verb, "--azimuth", words.azimuth, "DEGREES",
+             "Go around what shows, this many degrees to the right of the automatic "
+             "view, or of a scene's camera");
+    add_word(verb, "--elevation", words.elevation, "DEGREES", "The same, upwards");
+    add_word(verb, "--zoom", words.zoom, "FACTOR", "Show things this many times as large");
+    add_word(verb, "--up", words.up, "+x|-x|+y|-y|+z|-z",
+             "The axis that is up, in place of the one that is chosen; also of a scene with a "
+             "camera, which is then chosen anew");
+    add_word(verb, "--view", words.view, "SIDE",
+             "Look from this side: front, back, left, right, top, bottom, or iso (a three-quarter "
+             "view); --azimuth and --elevation start there");
+}
+
+void add_color_words(CLI::App& verb, Words& words) {
+    add_word(verb, "--colormap", words.colormap, "NAME|FILE",
+             "Colours: viridis, inferno, cividis, cool-warm, greys, ct-bone, ct-soft-tissue, "
+             "ct-lung or ct-angio, or a ParaView preset (JSON), spread over the values that show");
+    add_word(verb, "--range", words.range, "LO,HI",
+             "Values that show: nothing below LO; colours and density are spread from LO to HI")
+        ->allow_extra_args(false);
+    add_word(verb, "--opacity", words.opacity, "NAME",
+             "How opacity grows over the values that show: linear, geom, sigmoid, sigmoid_1 to "
+             "sigmoid_20, foreground; linear_r and geom_r fall");
+    add_word(verb, "--preset", words.preset, "NAME",
+             "Colours, opacity and light for a kind of data: ct-bone, ct-soft-tissue, ct-lung, "
+             "ct-angio (all in HU), mr, microscopy");
+    add_word(verb, "--density", words.density, "FACTOR", "Factor on the extinction");
+}
+
+void add_light_and_clip_words(CLI::App& verb, Words& words) {
+    add_word(verb, "--light", words.light, "headlight|left|right|two",
+             "Light surfaces, from the eye (also if no word follows), from the left or right and "
+             "above, or by two lights")
+        ->expected(0, 1)
+        ->default_str("headlight");
+    add_word(verb, "--clip", words.clip, "PLANE",
+             "Cut away all but x:10: (from 10 on), x::10 (up to 10), x:10:20, \"x>10\" or "
+             "\"x<10\"; world units; x, y or z; may be repeated")
+        ->allow_extra_args(false);
+    add_word(verb, "--crop", words.crop, "X0:X1,Y0:Y1,Z0:Z1",
+             "Cut away all but this box; an end that is left out is open; an automatic camera "
+             "shows what is left")
+        ->allow_extra_args(false);
+}
+
+}  // namespace
+
 void add_view_options(CLI::App& verb, ViewOptions& options) {
-    const char* const group = "Look";
-    verb.add_option("--azimuth", options.turn.azimuth,
-                    "Go around what shows, this many degrees to the right of the automatic "
-                    "view, or of a scene's camera")
-        ->option_text("DEGREES")
-        ->group(group);
-    verb.add_option("--elevation", options.turn.elevation, "The same, upwards")
-        ->option_text("DEGREES")
-        ->group(group);
-    verb.add_option("--zoom", options.zoom, "Show things this many times as large")
-        ->option_text("FACTOR")
-        ->group(group);
-    verb.add_option("--size", options.size, "Pixels of the picture (800x600)")
-        ->option_text("WxH")
-        ->group(group);
-    verb.add_option("--colormap", options.colormap,
-                    "Colours: viridis, inferno, cividis, cool-warm, greys, ct-bone or "
-                    "ct-soft-tissue, or a ParaView preset (JSON), spread over the values that show")
-        ->option_text("NAME|FILE")
-        ->group(group);
-    verb.add_option(
-            "--range", options.range,
-            "Values that show: nothing below LO; colours and density are spread from LO to HI")
-        ->option_text("LO,HI")
-        ->allow_extra_args(false)
-        ->group(group);
-    verb.add_option("--density", options.density, "Factor on the extinction")
-        ->option_text("FACTOR")
-        ->group(group);
-    verb.add_option("--background", options.background,
-                    "Colour behind the picture: a CSS name, #rrggbb, or linear light [r, g, b]")
-        ->option_text("COLOR")
-        ->group(group);
+    add_camera_words(verb, options.words);
+    add_word(verb, "--size", options.size, "WxH", "Pixels of the picture (800x600)");
+    add_color_words(verb, options.words);
+    add_light_and_clip_words(verb, options.words);
+    add_word(verb, "--background", options.background, "COLOR",
+             "Colour behind the picture: a CSS name, #rrggbb, or linear light [r, g, b]");
 }
 
 Adjustments adjustments_of(const ViewOptions& options, ImageColorSpace space) {
-    Adjustments adjustments;
-    if (!options.colormap.empty()) {
-        Colormap colormap = colormap_of(options.colormap, space);
-        // Positions in a colour map's file are rarely values of the data, so the map is stretched
-        // over them.
-        if (!is_colormap_name(options.colormap)) colormap.own_range = false;
-        adjustments.transfer.colormap = std::move(colormap);
+    try {
+        return adjustments_of(options.words, space);
+    } catch (const WordError& mistake) {
+        throw UsageError(fmt::format("--{}", mistake.what()));
     }
-    if (!options.range.empty()) adjustments.transfer.range = range_of(options.range);
-    for (const auto& [name, number] : {std::pair{"--azimuth", options.turn.azimuth},
-                                       std::pair{"--elevation", options.turn.elevation}}) {
-        if (!std::isfinite(number))
-            throw UsageError(fmt::format("{} {}: expected a number of degrees", name, number));
-    }
-    if (!(options.zoom >= 1e-3 && options.zoom <= 1e3))
-        throw UsageError(
-            fmt::format("--zoom {}: expected a number from .001 to 1000", options.zoom));
-    if (!(options.density >= 0 && options.density <= 1e9))
-        throw UsageError(
-            fmt::format("--density {}: expected a number from 0 to 1e9", options.density));
-    adjustments.density = options.density;
-    adjustments.turn = options.turn;
-    adjustments.zoom = options.zoom;
-    return adjustments;
 }
 
 std::pair<int, int> pixels_of(const char* option, const std::string& text) {

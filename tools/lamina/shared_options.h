@@ -12,6 +12,7 @@
 #include "choice/choose.h"
 #include "lamina/scene.h"
 #include "lamina/volume.h"
+#include "lamina/words.h"
 
 namespace lamina {
 
@@ -57,15 +58,13 @@ std::pair<int, int> pixels_of(const char* option, const std::string& text);
 
 // Options that change the view without JSON.
 struct ViewOptions {
-    ViewTurn turn;
-    double zoom = 1, density = 1;
-    std::string size, colormap, range, background;
+    Words words;
+    std::string size, background;
 };
 
 void add_view_options(CLI::App& verb, ViewOptions& options);
 
-// Returns the changes that the options make to the scene. Reads the file of --colormap, if given.
-// Throws UsageError.
+// Returns the changes that the words make to the scene (choice/words.h). Throws UsageError.
 Adjustments adjustments_of(const ViewOptions& options, ImageColorSpace space);
 
 // Returns the options that adjustments_of() leaves out as values of --set: "image.width=800".

@@ -191,6 +191,7 @@ void Document::choose_camera() {
 // present state to `to`.
 void Document::move_step(std::vector<Step>& from, std::vector<Step>& to) {
     if (from.empty()) return;
+    words_.reset();
     Step step = std::move(from.back());
     from.pop_back();
     to.push_back({step.name, scene_, curves_, step.with_camera});
@@ -215,9 +216,22 @@ void Document::redo() {
     move_step(redo_, undo_);
 }
 
+void Document::adjust(Words words, const std::string& name) {
+    begin_step(name, true);
+    end_step();
+    words_ = std::make_shared<const Words>(std::move(words));
+    ++revisions_.settings;
+}
+
 void Document::take_chosen(const Scene& chosen) {
-    if (scene_.camera.is_automatic()) scene_.camera = chosen.camera;
-    if (scene_.transfer_function.is_automatic()) {
+    const bool adjusted = words_ != nullptr;
+    words_.reset();
+    if (adjusted) {
+        scene_.lighting = chosen.lighting;
+        scene_.clip = chosen.clip;
+    }
+    if (adjusted || scene_.camera.is_automatic()) scene_.camera = chosen.camera;
+    if (adjusted || scene_.transfer_function.is_automatic()) {
         scene_.transfer_function = chosen.transfer_function;
         edit_scene_transfer_function();
     }

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "lamina/scene.h"
+#include "lamina/words.h"
 #include "model/transfer_editor.h"
 
 namespace lamina::view {
@@ -75,9 +77,15 @@ class Document {
     void undo();
     void redo();
 
+    // Asks for changes by words (lamina/words.h), as a step: the session makes them
+    // (DrawRequest::words) when it chooses the next time.
+    void adjust(Words words, const std::string& name);
+    // The changes that the session has not made yet; null if there are none.
+    const std::shared_ptr<const Words>& words() const { return words_; }
+
     // Replaces the scene's transfer function and camera, if they are automatic, by those of
-    // `chosen`, the scene as the session resolved it. Editing thus starts from the picture that is
-    // shown. This is no step and increments no count.
+    // `chosen`, the scene as the session resolved it; after adjust(), also lighting and clip.
+    // Editing thus starts from the picture that is shown. This is no step and increments no count.
     void take_chosen(const Scene& chosen);
 
     // True: pictures are as large as the area that shows them; false: as the scene says.
@@ -99,6 +107,7 @@ class Document {
     void move_step(std::vector<Step>& from, std::vector<Step>& to);
 
     Scene scene_;
+    std::shared_ptr<const Words> words_;
     TransferEditor transfer_;
     TransferCurves curves_;  // of scene_; transfer_ may be ahead until transfer_edited()
     Revisions revisions_;

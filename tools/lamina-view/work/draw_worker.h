@@ -24,7 +24,8 @@ namespace lamina::view {
 // A request for a picture.
 struct DrawRequest {
     Scene scene;
-    Revisions revisions;  // counts that show which parts of the scene changed
+    Revisions revisions;                      // counts that show which parts of the scene changed
+    std::shared_ptr<const Words> words = {};  // changes that the session makes when it chooses
     bool moving = false;  // something is being dragged: a coarse picture suffices
     bool coarse = true;   // allows coarse pictures
     bool trace = true;    // at rest, the tracer replaces the picture

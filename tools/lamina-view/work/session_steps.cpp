@@ -323,6 +323,7 @@ void SessionSteps::choose() {
     if (chosen_ == request_.revisions && full_size_ && !holds_pinned_) return;
     applied_ = {.data = request_.revisions.data};
     session_->set_scene(request_.scene);
+    if (request_.words) session_->adjust(*request_.words);
     holds_pinned_ = false;
     applied_ = chosen_ = request_.revisions;
     full_size_ = true;

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Words for what people change of a picture, as on the command line (docs/first-picture.md, "Changing it")."""
+from __future__ import annotations
+
+import os
+from typing import Any, Mapping
+
+from ._conversion import shown
+
+# Keywords that are words, with the names that the library has for them.
+WORDS = {"azimuth": "azimuth", "elevation": "elevation", "zoom": "zoom", "density": "density", "up": "up", "view": "view",
+         "light": "light", "crop": "crop", "opacity": "opacity", "preset": "preset", "cmap": "colormap", "clim": "range"}
+
+
+def take_words(keywords: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Returns the keywords that are keys of the scene, and the others as words of the library."""
+    keys, words = {}, {}
+    for name, value in keywords.items():
+        if value is None or not (name in WORDS or (name == "clip" and _is_word(value))):
+            keys[name] = value
+        elif name == "clip":
+            words["clip"] = [value] if isinstance(value, str) else list(value)
+        else:
+            words[WORDS[name]] = _plain_word(name, value)
+    return {name: value for name, value in keys.items() if name not in WORDS}, words
+
+
+def _is_word(clip: Any) -> bool:
+    return isinstance(clip, str) or (isinstance(clip, (list, tuple)) and all(isinstance(one, str) for one in clip))
+
+
+def _plain_word(name: str, value: Any) -> Any:
+    if name in ("azimuth", "elevation", "zoom", "density"):
+        if isinstance(value, bool) or not hasattr(value, "__float__"):
+            raise TypeError(f"{name}: found {shown(value)}, expected a number")
+        return float(value)
+    if name == "clim":
+        return ",".join(_number(name, number) for number in _pair(name, value))
+    if name == "crop" and not isinstance(value, str):
+        return _box(value)
+    if name == "light" and value is True:
+        return "headlight"
+    if name == "cmap" and isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if not isinstance(value, str):
+        raise TypeError(f"{name}: found {shown(value)}, expected a word")
+    return value
+
+
+def _pair(name: str, value: Any) -> tuple[Any, Any]:
+    if isinstance(value, str) or not hasattr(value, "__len__") or len(value) != 2:
+        raise TypeError(f"{name}: found {shown(value)}, expected two numbers")
+    low, high = value
+    return low, high
+
+
+def _number(name: str, value: Any) -> str:
+    if isinstance(value, (str, bool)) or not hasattr(value, "__float__"):
+        raise TypeError(f"{name}: found {shown(value)}, expected a number")
+    return repr(float(value))
+
+
+def _box(value: Any) -> str:
+    """The word for ((x0, x1), (y0, y1), (z0, z1)), in which None is an open end."""
+    if not hasattr(value, "__len__") or len(value) != 3:
+        raise TypeError(f"crop: found {shown(value)}, expected ((x0, x1), (y0, y1), (z0, z1))")
+    ends = [[("" if end is None else _number("crop", end)) for end in _pair("crop", axis)] for axis in value]
+    return ",".join(":".join(axis) for axis in ends)

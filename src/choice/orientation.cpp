@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "choice/orientation.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/enum_words.h"
+
+namespace lamina {
+namespace {
+
+constexpr double radians_per_degree = std::numbers::pi / 180;
+
+// The angles of the three-quarter view, in degrees.
+constexpr double three_quarter_azimuth = 30, three_quarter_elevation = 20;
+
+// An axis stands upright if it is this many times as long as each of the others.
+constexpr double upright_ratio = 1.25;
+
+// Returns the front of data with this axis up: a positive axis to the right, the eye where the
+// three are right-handed. With a negative axis up, the picture is the same, upside down.
+Axes front_of(UpAxis up) {
+    const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    switch (up) {
+        case UpAxis::plus_x:
+            return {y, x, -z};
+        case UpAxis::minus_x:
+            return {-y, -x, -z};
+        case UpAxis::plus_y:
+            return {x, y, z};
+        case UpAxis::minus_y:
+            return {-x, -y, z};
+        case UpAxis::plus_z:
+            return {x, z, -y};
+        case UpAxis::minus_z:
+            return {-x, -z, -y};
+    }
+    unreachable_enum();
+}
+
+// Returns the front of a patient, whose left is to the right of the picture.
+std::optional<Axes> front_of_patient(WorldAxes axes) {
+    switch (axes) {
+        case WorldAxes::left_posterior_superior:
+            return Axes{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+        case WorldAxes::right_anterior_superior:
+            return Axes{{-1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+        case WorldAxes::left_anterior_superior:  // a left-handed world
+            return Axes{{1, 0, 0}, {0, 0, 1}, {0, 1, 0}};
+        case WorldAxes::unnamed:
+        case WorldAxes::named:
+            return std::nullopt;
+    }
+    unreachable_enum();
+}
+
+// Returns the axis along which the box is longest, if it is so by upright_ratio.
+std::optional<UpAxis> upright_axis(const std::array<glm::dvec3, 8>& corners) {
+    double length[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [lo, hi] = std::ranges::minmax(
+            corners, {}, [&](const glm::dvec3& corner) { return corner[axis]; });
+        length[axis] = hi[axis] - lo[axis];
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const double longest_other = std::max(length[(axis + 1) % 3], length[(axis + 2) % 3]);
+        if (length[axis] > upright_ratio * longest_other) return static_cast<UpAxis>(2 * axis);
+    }
+    return std::nullopt;
+}
+
+bool along_z(UpAxis up) {
+    return up == UpAxis::plus_z || up == UpAxis::minus_z;
+}
+
+Orientation chosen_orientation(WorldAxes axes, const std::array<glm::dvec3, 8>& corners) {
+    if (axes == WorldAxes::named)
+        return {front_of(UpAxis::plus_z), false, "z is up, as in meshes and where axes have names"};
+    const auto upright = upright_axis(corners);
+    if (!upright) return {front_of(UpAxis::plus_y), false, "y is up, no axis is much the longest"};
+    return {front_of(*upright), false,
+            fmt::format("{}, the longest axis, is up", name_of(*upright) + 1)};
+}
+
+}  // namespace
+
+const char* name_of(UpAxis axis) {
+    static constexpr const char* words[] = {"+x", "-x", "+y", "-y", "+z", "-z"};
+    return word_of(axis, words);
+}
+
+const char* name_of(ViewSide side) {
+    static constexpr const char* words[] = {"iso",   "front", "back",  "left",
+                                            "right", "top",   "bottom"};
+    return word_of(side, words);
+}
+
+Axes turned(const Axes& axes, const ViewTurn& turn) {
+    const double a = turn.azimuth * radians_per_degree, e = turn.elevation * radians_per_degree;
+    const glm::dvec3 right = std::cos(a) * axes.right - std::sin(a) * axes.toward;
+    const glm::dvec3 around = std::sin(a) * axes.right + std::cos(a) * axes.toward;
+    return {right, std::cos(e) * axes.up - std::sin(e) * around,
+            std::sin(e) * axes.up + std::cos(e) * around};
+}
+
+Orientation orientation_of(WorldAxes axes, const std::array<glm::dvec3, 8>& corners,
+                           std::optional<UpAxis> up) {
+    const std::optional<Axes> patient = front_of_patient(axes);
+    if (!up) {
+        if (patient) return {*patient, true, "the patient's head is up"};
+        return chosen_orientation(axes, corners);
+    }
+    const std::string reason = fmt::format("{} is up, as asked", name_of(*up));
+    if (!patient || !along_z(*up)) return {front_of(*up), false, reason};
+    if (*up == UpAxis::plus_z) return {*patient, true, reason};
+    return {{-patient->right, -patient->up, patient->toward}, true, reason};
+}
+
+ViewTurn turn_to(ViewSide side, const Orientation& orientation) {
+    // A patient's left is to the right of who looks from in front.
+    const double left = orientation.patient ? 90 : -90;
+    switch (side) {
+        case ViewSide::iso:
+            return {three_quarter_azimuth, three_quarter_elevation};
+        case ViewSide::front:
+            return {0, 0};
+        case ViewSide::back:
+            return {180, 0};
+        case ViewSide::left:
+            return {left, 0};
+        case ViewSide::right:
+            return {-left, 0};
+        case ViewSide::top:
+            return {0, 90};
+        case ViewSide::bottom:
+            return {0, -90};
+    }
+    unreachable_enum();
+}
+
+}  // namespace lamina

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words of the command line for what people change of a picture: --up, --view, --light, --clip, ...
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/blobs_scene.h"
+#include "cli/lamina_run.h"
+#include "image/exr.h"
+#include "lamina/scene.h"
+#include "support/temporary_folder.h"
+
+namespace lamina {
+namespace {
+
+using nlohmann::json;
+
+class WordsRun : public testing::Test {
+  protected:
+    void SetUp() override {
+        const ProgramResult made = lamina_run({"generate", "gaussians", "-o", folder / "v.nrrd",
+                                               "--type", "uint8", "--size", "16,16,16"});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+    }
+
+    ProgramResult run(const std::vector<std::string>& more, const char* verb = "scene",
+                      const std::string& output = "-") {
+        std::vector<std::string> arguments{verb,   folder / "v.nrrd", "-o",
+                                           output, "--size",          "40x30"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return lamina_run(arguments);
+    }
+    // Returns the scene that lamina would draw with these options.
+    json scene(const std::vector<std::string>& more) {
+        const ProgramResult result = run(more);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return json::parse(result.out.empty() ? "{}" : result.out);
+    }
+
+    TemporaryFolder folder;
+};
+
+// Each word stands for keys of the scene, to the last bit.
+TEST_F(WordsRun, StandForKeysOfTheScene) {
+    const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> same{
+        {{"--light"}, {"--set", "lighting=true"}},
+        {{"--light", "headlight"}, {"--set", "lighting={}"}},
+        {{"--clip", "x>.5", "--clip", "y::.75"}, {"--clip", "x:.5:", "--clip", "y<.75"}},
+        {{"--view", "iso", "--up", "+y"}, {}}};
+    for (const auto& [word, keys] : same)
+        EXPECT_EQ(scene(word), scene(keys)) << word[0] << " " << word.back();
+    // A clip leaves the automatic choice of colours as it is.
+    json cut = scene({"--crop", "0:.5,.25:1,0:1"});
+    EXPECT_EQ(cut["clip"], json::parse(R"({"box": {"min": [0, 0.25, 0], "max": [0.5, 1, 1]}})"));
+    const json planes = scene({"--clip", "z:.25:"})["clip"]["planes"];
+    EXPECT_EQ(planes, json::parse(R"([{"point": [0, 0, 0.25], "normal": [0, 0, 1]}])"));
+}
+
+TEST_F(WordsRun, DrawThePictureOfTheSceneTheyWrite) {
+    const std::vector<std::string> words{"--view",    "left",    "--up",      "+z",
+                                         "--light",   "two",     "--clip",    "x<.6",
+                                         "--opacity", "sigmoid", "--density", "2"};
+    std::vector<std::string> drawn = words;
+    drawn.insert(drawn.end(), {"--context", "cpu"});
+    EXPECT_EQ(run(drawn, "render", folder / "a.exr").exit_code, 0);
+    EXPECT_EQ(run(words, "scene", folder / "s.json").exit_code, 0);
+    const ProgramResult again =
+        lamina_run({"render", folder / "s.json", "-o", folder / "b.exr", "--context", "cpu"});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(read_exr(std::string(folder / "a.exr")).rgba,
+              read_exr(std::string(folder / "b.exr")).rgba);
+    EXPECT_NE(read_bytes_of(folder / "a.exr").find("\"normal\""), std::string::npos);
+}
+
+TEST_F(WordsRun, WhatIsChosenIsSaid) {
+    const std::string said = run({"--up", "-z", "--light", "left"}).err;
+    EXPECT_NE(said.find("-z is up, as asked"), std::string::npos) << said;
+    EXPECT_NE(said.find("lighting: left, as asked"), std::string::npos) << said;
+    EXPECT_NE(run({}).err.find("y is up"), std::string::npos);
+}
+
+TEST_F(WordsRun, MistakesAreOfUsage) {
+    const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes{
+        {{"--up", "z"}, "--up z: expected +x, -x, +y, -y, +z or -z"},
+        {{"--view", "north"}, "--view north: expected iso, front, back"},
+        {{"--light", "sun"}, "--light sun: expected headlight, left, right or two"},
+        {{"--clip", "x"}, "--clip x: expected x:10:"},
+        {{"--crop", "1:2"}, "--crop 1:2: expected x0:x1,y0:y1,z0:z1"},
+        {{"--opacity", "cubic"}, "--opacity cubic: expected linear"},
+        {{"--preset", "ct"}, "--preset ct: found no preset of this name"}};
+    for (const auto& [mistake, message] : mistakes) {
+        const ProgramResult result = run(mistake, "render", folder / "x.png");
+        EXPECT_EQ(result.exit_code, 2) << result.err;
+        EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
+    }
+    const ProgramResult units = run({"--preset", "ct-bone"}, "render", folder / "x.png");
+    EXPECT_EQ(units.exit_code, 1);
+    EXPECT_NE(units.err.find("v.nrrd: found values from"), std::string::npos) << units.err;
+    EXPECT_NE(units.err.find("expected HU for ct-bone"), std::string::npos) << units.err;
+}
+
+TEST_F(WordsRun, LightingIsTrueOrFalse) {
+    json lit = gaussians_scene(8, 20, 15, 8);
+    const auto of_key = [&](const json& lighting) {
+        lit["lighting"] = lighting;
+        write_bytes_to(folder / "s.json", lit.dump());
+        return load_scene(std::string(folder / "s.json")).lighting;
+    };
+    EXPECT_EQ(of_key(true), Lighting{});
+    EXPECT_EQ(of_key(false), std::nullopt);
+    EXPECT_EQ(scene({"--set", "lighting=false"}).contains("lighting"), false);
+}
+
+// A turntable turns about the picture's up: view 2 of 4 sees the other side, from the same height.
+TEST_F(WordsRun, TurntablesTurnAboutTheUpOfThePicture) {
+    const ProgramResult drawn =
+        run({"--up", "+z", "--elevation", "25", "--turntable", "4", "--context", "cpu"}, "render",
+            folder / "v_%d.exr");
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    std::vector<json> cameras;
+    for (const char* const name : {"v_0.exr", "v_2.exr"}) {
+        const std::string bytes = read_bytes_of(folder / name);
+        const std::size_t begin = bytes.find("{\n  \"camera\"");
+        ASSERT_NE(begin, std::string::npos);
+        const std::size_t end = bytes.find("\n}", begin);
+        cameras.push_back(json::parse(bytes.substr(begin, end + 2 - begin))["camera"]);
+    }
+    const auto number = [&](std::size_t view, const char* key, std::size_t axis) {
+        return cameras[view][key][axis].get<double>();
+    };
+    for (std::size_t axis = 0; axis < 2; ++axis)
+        EXPECT_NEAR(number(1, "eye", axis) - number(1, "center", axis),
+                    number(0, "center", axis) - number(0, "eye", axis), 1e-12);
+    EXPECT_NEAR(number(1, "eye", 2), number(0, "eye", 2), 1e-12);
+    EXPECT_EQ(cameras[0]["up"], json::parse("[0.0, 0.0, 1.0]"));
+}
+
+// The same about the own camera of a scene: it tumbled about an `up` that leaned with the eye.
+TEST_F(WordsRun, TurntablesOfAScenesCameraStandUprightIfElevated) {
+    write_bytes_to(folder / "s.json", gaussians_scene(8, 20, 15, 8).dump());
+    const ProgramResult drawn =
+        lamina_run({"scene", folder / "s.json", "-o", "-", "--elevation", "30", "--azimuth", "10"});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    EXPECT_EQ(json::parse(drawn.out)["camera"]["up"], json::parse("[0.0, 0.0, 1.0]"));
+}
+
+TEST_F(WordsRun, AFileWithoutAVerbNeedsADisplay) {
+    const ProgramResult result = lamina_run({folder / "v.nrrd"}, [] {
+        unsetenv("DISPLAY");
+        unsetenv("WAYLAND_DISPLAY");
+    });
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("v.nrrd -o a.png draws it"), std::string::npos) << result.err;
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+    const ProgramResult none = lamina_run({folder / "none.nrrd"});
+    EXPECT_EQ(none.exit_code, 2);
+    EXPECT_NE(none.err.find("unknown verb"), std::string::npos) << none.err;
+}
+
+}  // namespace
+}  // namespace lamina
