@@ -19,6 +19,7 @@ from .keywords import KEYWORDS
 from ._mesh import Mesh
 from ._plain import plain
 from ._volume import Path, Volume, folder_name
+from ._words import WORDS
 
 
 class Scene(dict[str, Any]):
@@ -111,7 +112,7 @@ class Scene(dict[str, Any]):
             elif name == "transfer_function" or name in KEYWORDS:
                 _set(scene, ".".join(KEYWORDS.get(name, (name,))), plain(value, name))
             else:
-                near = difflib.get_close_matches(name, [*KEYWORDS, "size", "set", "transfer_function"], 1)
+                near = difflib.get_close_matches(name, [*KEYWORDS, *WORDS, "size", "set", "transfer_function"], 1)
                 raise TypeError(f"unexpected keyword {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
         return scene
 

@@ -14,7 +14,8 @@ WORDS = {"azimuth": "azimuth", "elevation": "elevation", "zoom": "zoom", "densit
 
 def take_words(keywords: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     """Returns the keywords that are keys of the scene, and the others as words of the library."""
-    keys, words = {}, {}
+    keys: dict[str, Any] = {}
+    words: dict[str, Any] = {}
     for name, value in keywords.items():
         if value is None or not (name in WORDS or (name == "clip" and _is_word(value))):
             keys[name] = value

@@ -316,7 +316,7 @@ class TransferFunctionKeys(TypedDict, total=False):
     - ``codes``: Values are the codes of labels that do not fit 16 bits (docs/scene.md, "Labels"), in place of the
       file's numbers. Default: false.
     - ``colormap``: Path of a ParaView colour map (JSON preset), or the name of a shipped one: cividis, cool-warm,
-      ct-bone, ct-soft-tissue, greys, inferno, viridis. Points then give no colour.
+      ct-angio, ct-bone, ct-lung, ct-soft-tissue, greys, inferno, viridis. Points then give no colour.
     - ``colormap_range``: Scalars that the map is stretched to; a shipped one else to the data's range, if it is not
       in HU.
     - ``points``: In order of value; two points at one value make a step.
@@ -360,10 +360,10 @@ class Keywords(TypedDict, total=False):
     - ``nan``: What NaN and infinite values do: refuse the volume or mesh, or make the cells and tets around them
       transparent. Default: "error".
     - ``camera``: auto: chosen from the data (docs/first-picture.md). Default: "auto".
-    - ``clip``: What is drawn of the data: what lies on the kept side of all planes and in the box. Nothing is cut
-      away if it is left out.
-    - ``lighting``: Emission is lit by the gradient of the scalar, on both of its sides; absent: colours are shown as
-      they are.
+    - ``clip``: What is drawn of the data: what lies on the kept side of all planes and in the box. Words add planes:
+      "x:10:" (from 10 on), "x::10" (up to 10), "x>10", "x<10".
+    - ``lighting``: Emission is lit by the gradient of the scalar, on both of its sides; true: with all defaults;
+      absent or false: colours are shown as they are.
     - ``width``: Default: 800.
     - ``height``: Default: 600.
     - ``color_space``: What triples and colour maps are given in, and pictures composited in: linear light, or display
@@ -378,6 +378,21 @@ class Keywords(TypedDict, total=False):
     - ``trace``: The reference tracer.
     - ``size``: (width, height) in pixels, in place of width and height.
     - ``set``: Any key, named by its path: {"render.slice.samples": 64}.
+    - ``crop``: The box that is left, which an automatic camera then shows: ((x0, x1), (y0, y1), (z0, z1)) with None
+      for open ends, or x0:x1,y0:y1,z0:z1.
+    - ``up``: The axis that is up; the camera is chosen anew.
+    - ``view``: The side that is seen; the camera is chosen anew.
+    - ``azimuth``: Degrees by which the eye goes to the right around what shows.
+    - ``elevation``: Degrees by which it goes up.
+    - ``zoom``: Factor on the size of things in the picture.
+    - ``light``: Lights; True is a headlight.
+    - ``opacity``: How opacity grows over the values that show: linear, geom, sigmoid, sigmoid_1 to sigmoid_20,
+      foreground, linear_r, geom_r.
+    - ``preset``: Colours, opacity and light for a kind of data: ct-bone, ct-soft-tissue, ct-lung, ct-angio, mr,
+      microscopy.
+    - ``cmap``: Colours: a map's name or file.
+    - ``clim``: (low, high): the values that show.
+    - ``density``: Factor on the extinction.
     """
 
     volume: Union[str, os.PathLike[str], VolumeKeys, None]
@@ -385,8 +400,8 @@ class Keywords(TypedDict, total=False):
     scalar: Union[str, None]
     nan: Union[Literal["error", "transparent"], None]
     camera: Union[Literal["auto"], CameraKeys, Camera, None]
-    clip: Union[ClipKeys, None]
-    lighting: Union[LightingKeys, Lighting, None]
+    clip: Union[ClipKeys, None, str, Sequence[str]]
+    lighting: Union[bool, LightingKeys, Lighting, None]
     width: Union[int, None]
     height: Union[int, None]
     color_space: Union[Literal["linear", "display"], None]
@@ -400,6 +415,18 @@ class Keywords(TypedDict, total=False):
     trace: Union[TraceKeys, None]
     size: Union[Vector, None]
     set: Union[Mapping[str, Any], None]
+    crop: Union[str, Sequence[Any], None]
+    up: Union[Literal["+x", "-x", "+y", "-y", "+z", "-z"], None]
+    view: Union[Literal["iso", "front", "back", "left", "right", "top", "bottom"], None]
+    azimuth: Union[float, None]
+    elevation: Union[float, None]
+    zoom: Union[float, None]
+    light: Union[Literal[True, "headlight", "left", "right", "two"], None]
+    opacity: Union[str, None]
+    preset: Union[str, None]
+    cmap: Union[str, os.PathLike[str], None]
+    clim: Union[Vector, None]
+    density: Union[float, None]
 
 
 class Changes(Keywords, total=False):

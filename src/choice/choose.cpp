@@ -196,6 +196,19 @@ void add_lights(const Adjustments& adjustments, Choices& choices) {
                                               scene.clip.box ? " and a box" : ""));
 }
 
+// Chooses the camera of a scene whose transfer function is known. Returns why it is upright so, for
+// people.
+std::string choose_camera(const Adjustments& adjustments, const Field& field, Scene& scene) {
+    const Orientation from = orientation_of(field.axes(), field.corners(), adjustments.up);
+    ViewTurn turn = turn_to(adjustments.side.value_or(ViewSide::iso), from);
+    turn.azimuth += adjustments.turn.azimuth;
+    turn.elevation += adjustments.turn.elevation;
+    scene.camera = fitted_camera(points_to_fit(scene, field), from.front, turn, scene.width,
+                                 scene.height, adjustments.all_around);
+    if (!adjustments.side) return from.reason;
+    return fmt::format("{}; view: {}", from.reason, name_of(*adjustments.side));
+}
+
 // Chooses all but the lights.
 Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustments) {
     Choices choices{std::move(asked), {}};
@@ -232,18 +245,10 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
     }
     if (adjustments.opacity) reason = take_opacity(adjustments, *scene.transfer_function);
     std::string orientation;
-    if (chooses_camera) {
-        const Orientation from = orientation_of(field.axes(), field.corners(), adjustments.up);
-        orientation = from.reason;
-        if (adjustments.side) orientation += fmt::format("; view: {}", name_of(*adjustments.side));
-        ViewTurn turn = turn_to(adjustments.side.value_or(ViewSide::iso), from);
-        turn.azimuth += adjustments.turn.azimuth;
-        turn.elevation += adjustments.turn.elevation;
-        scene.camera = fitted_camera(points_to_fit(scene, field), from.front, turn, scene.width,
-                                     scene.height, adjustments.all_around);
-    } else {
+    if (chooses_camera)
+        orientation = choose_camera(adjustments, field, scene);
+    else
         scene.camera = turned(*scene.camera, adjustments.turn);
-    }
     if (chooses_function || adjustments.opacity) {
         scene.transfer_function = per_diagonal(*scene.transfer_function, field);
         const double density = density_of(scene, field);

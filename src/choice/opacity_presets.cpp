@@ -142,7 +142,10 @@ void expect_hounsfield_units(const ValueRange& range, const Colormap& colormap,
                              const std::string& name, const std::string& data) {
     const std::string found =
         fmt::format("{}: found values from {:.6g} to {:.6g}", data, range.lo, range.hi);
-    const char* const hint = "--range LO,HI spreads its colours over these values";
+    const std::string hint = fmt::format(
+        "a range LO,HI (--range; in Python clim) says which values stand for {:.6g} and {:.6g} HU "
+        "(0,4095 for HU + 1024)",
+        colormap.colors.front().value, colormap.colors.back().value);
     if (range.lo >= 0) {
         fail("{}, expected HU for {}: none is below 0, but air is -1000 HU and fat -100; {}", found,
              name, hint);

@@ -19,23 +19,28 @@ constexpr double three_quarter_azimuth = 30, three_quarter_elevation = 20;
 // An axis stands upright if it is this many times as long as each of the others.
 constexpr double upright_ratio = 1.25;
 
+// Returns the opposite direction, whose zeros are not negative: people read them.
+glm::dvec3 opposite(const glm::dvec3& direction) {
+    return glm::dvec3(0) - direction;
+}
+
 // Returns the front of data with this axis up: a positive axis to the right, the eye where the
 // three are right-handed. With a negative axis up, the picture is the same, upside down.
 Axes front_of(UpAxis up) {
     const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     switch (up) {
         case UpAxis::plus_x:
-            return {y, x, -z};
+            return {y, x, opposite(z)};
         case UpAxis::minus_x:
-            return {-y, -x, -z};
+            return {opposite(y), opposite(x), opposite(z)};
         case UpAxis::plus_y:
             return {x, y, z};
         case UpAxis::minus_y:
-            return {-x, -y, z};
+            return {opposite(x), opposite(y), z};
         case UpAxis::plus_z:
-            return {x, z, -y};
+            return {x, z, opposite(y)};
         case UpAxis::minus_z:
-            return {-x, -z, -y};
+            return {opposite(x), opposite(z), opposite(y)};
     }
     unreachable_enum();
 }
@@ -115,7 +120,7 @@ Orientation orientation_of(WorldAxes axes, const std::array<glm::dvec3, 8>& corn
     const std::string reason = fmt::format("{} is up, as asked", name_of(*up));
     if (!patient || !along_z(*up)) return {front_of(*up), false, reason};
     if (*up == UpAxis::plus_z) return {*patient, true, reason};
-    return {{-patient->right, -patient->up, patient->toward}, true, reason};
+    return {{opposite(patient->right), opposite(patient->up), patient->toward}, true, reason};
 }
 
 ViewTurn turn_to(ViewSide side, const Orientation& orientation) {

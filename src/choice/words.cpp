@@ -7,8 +7,9 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <utility>
+
+#include <fmt/ranges.h>
 
 #include "base/enum_words.h"
 #include "optics/colormap.h"
@@ -145,9 +146,7 @@ void set_crop(const std::string& text, Clip& clip) {
 // Replaces the words that a preset stands for, unless they are given themselves.
 Words with_preset(Words words) {
     if (words.preset.empty()) return words;
-    std::set<std::string> names;
     for (const Preset& preset : presets()) {
-        names.insert(preset.name);
         if (words.preset != preset.name) continue;
         // A map's own opacities do not belong to the values of another map.
         if (words.opacity.empty() &&
@@ -157,8 +156,8 @@ Words with_preset(Words words) {
         if (words.light.empty()) words.light = preset.light;
         return words;
     }
-    throw WordError(fmt::format("preset {}: found no preset of this name{}",
-                                shortened(words.preset), suggestion(names, words.preset)));
+    reject("preset", words.preset,
+           fmt::format("one of {}", fmt::join(known_words("preset"), ", ")));
 }
 
 void set_transfer(const Words& words, ImageColorSpace space, Adjustments& adjustments) {

@@ -88,7 +88,7 @@ TEST(Words, MistakesNameTheWordAndWhatIsExpected) {
         {{.opacity = "linea"}, "opacity linea: expected linear"},
         {{.opacity = "colormap"}, "opacity colormap: expected linear"},
         {{.opacity = "sigmoid_21"}, "opacity sigmoid_21: expected"},
-        {{.preset = "ct-bones"}, "preset ct-bones: found no preset of this name, did you mean"},
+        {{.preset = "ct-bones"}, "preset ct-bones: expected one of ct-bone, ct-soft-tissue"},
         {{.range = "3"}, "range 3: expected LO,HI"},
         {{.clip = {"x"}}, "clip x: expected x:10:"},
         {{.clip = {"x:10"}}, "clip x:10: expected x:10:"},
@@ -169,7 +169,7 @@ TEST(OpacityWords, StraightPiecesFollowTheCurve) {
         const auto shaped = with_opacity(function, curve, {10, 30});
         EXPECT_EQ(shaped.at(9.999).extinction, 0) << word;
         for (double t = 1e-9; t <= 1; t += 1. / 512) {
-            const Optics optics = shaped.at(10 + 20 * t);
+            const auto optics = shaped.at(10 + 20 * t);
             // Twice the tolerance of the pieces, which is tested at their quarters only.
             EXPECT_NEAR(optics.extinction, curve.at(t), 2e-3) << word << " " << t;
             EXPECT_NEAR(optics.color.r, 1 - (10 + 20 * t) / 40, 1e-12) << word;
@@ -237,11 +237,11 @@ TEST(Presets, AndMapsInHounsfieldUnitsRefuseOtherData) {
     const Cube unsigned_like;  // from 0 on, as headsq.nrrd of the examples
     for (const Words& words : {Words{.preset = "ct-bone"}, Words{.colormap = "ct-soft-tissue"}}) {
         expect_error([&] { chosen_with(words, unsigned_like.field); },
-                     {"none is below 0, but air is -1000 HU", "--range LO,HI"});
+                     {"none is below 0, but air is -1000 HU", "a range LO,HI"});
     }
     const Cube small(-1);  // from -1 to 52
     expect_error([&] { chosen_with({.preset = "ct-bone"}, small.field); },
-                 {"which shows", "HU", "--range LO,HI"});
+                 {"which shows", "HU", "a range LO,HI"});
     // A range says where the map lies.
     const Scene scene = chosen_with({.colormap = "ct-bone", .range = "10,50"}, unsigned_like.field);
     EXPECT_EQ(scene.transfer_function->at(10).extinction, 0);

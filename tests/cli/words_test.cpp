@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-class WordsRun : public testing::Test {
+class WordsRun : public ::testing::Test {
   protected:
     void SetUp() override {
         const ProgramResult made = lamina_run({"generate", "gaussians", "-o", folder / "v.nrrd",
@@ -92,7 +92,7 @@ TEST_F(WordsRun, MistakesAreOfUsage) {
         {{"--clip", "x"}, "--clip x: expected x:10:"},
         {{"--crop", "1:2"}, "--crop 1:2: expected x0:x1,y0:y1,z0:z1"},
         {{"--opacity", "cubic"}, "--opacity cubic: expected linear"},
-        {{"--preset", "ct"}, "--preset ct: found no preset of this name"}};
+        {{"--preset", "ct"}, "--preset ct: expected one of ct-bone"}};
     for (const auto& [mistake, message] : mistakes) {
         const ProgramResult result = run(mistake, "render", folder / "x.png");
         EXPECT_EQ(result.exit_code, 2) << result.err;

@@ -58,7 +58,7 @@ def test_a_traced_picture_has_its_words(blob, function):
 
 def test_mistakes_are_named(blob):
     for words, message in (({"up": "z"}, "up z: expected"), ({"view": "north"}, "view north: expected"),
-                           ({"preset": "bone"}, "preset bone: found no preset"), ({"clip": "x"}, "clip x: expected"),
+                           ({"preset": "bone"}, "preset bone: expected one of ct-bone"), ({"clip": "x"}, "clip x: expected"),
                            ({"preset": "ct-bone"}, "expected HU for ct-bone"), ({"clim": (2, 1)}, "range 2.0,1.0: expected")):
         with pytest.raises(lamina.Error, match=message):
             drawn(blob, **words)

@@ -6,7 +6,6 @@ int main(int argc, char** argv) {
     return lamina::run_command_line(
         {"lamina", "lamina: volume rendering by slicing, with the error of each picture",
          "A first picture: lamina render head.nrrd -o head.png\n"
-         "In a window: lamina head.nrrd\n"
          "What a verb takes: lamina VERB --help",
          lamina::add_verbs},
         argc, argv);

@@ -58,6 +58,7 @@ void add_view(CLI::App& app, int&) {
     const auto options = std::make_shared<ViewVerbOptions>();
     CLI::App* const verb = app.add_subcommand(
         "view", "Look at a scene or a data file in a window, and see the error of each picture");
+    verb->footer("In short: lamina FILE");
     verb->add_option("FILE", options->file, "Scene (JSON), volume or mesh");
     verb->add_option("--size", options->size, "Of the picture in pixels, whatever the window's")
         ->option_text("WxH");

@@ -113,7 +113,8 @@ class SchemaReader {
             if (one.contains("const") && one.at("const").is_string()) {
                 node.automatic = true;
                 node.automatic_word = one.at("const");
-            } else {
+            } else if (one.value("type", "") != "boolean") {
+                // true and false stand for an object with its defaults and for none.
                 others.push_back(one);
             }
         }
