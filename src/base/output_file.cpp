@@ -295,4 +295,17 @@ void OwnFiles::add(const std::vector<std::string>& names) const {
     file.commit();
 }
 
+void OwnFiles::remove_all() const {
+    const std::string of_verb = verb_ + ": ";
+    bool others = false;
+    for (const std::string& line : listed()) {
+        if (line.starts_with(of_verb))
+            std::filesystem::remove(folder_ / line.substr(of_verb.size()));
+        else
+            others = true;
+    }
+    if (!others) std::filesystem::remove(folder_ / list_name);
+    if (std::filesystem::is_empty(folder_)) std::filesystem::remove(folder_);
+}
+
 }  // namespace lamina

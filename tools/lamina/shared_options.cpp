@@ -263,6 +263,9 @@ void add_view_options(CLI::App& verb, ViewOptions& options) {
     add_light_and_clip_words(verb, options.words);
     add_word(verb, "--background", options.background, "COLOR",
              "Colour behind the picture: a CSS name, #rrggbb, or linear light [r, g, b]");
+    verb.add_flag("--transparent", options.transparent,
+                  "No background: PNG files and films with straight alpha (image.transparent)")
+        ->group(look);
 }
 
 Adjustments adjustments_of(const ViewOptions& options, ImageColorSpace space) {
@@ -291,6 +294,7 @@ std::vector<std::string> settings_of(const ViewOptions& options) {
         settings.push_back(fmt::format("image.height={}", height));
     }
     if (!options.background.empty()) settings.push_back("image.background=" + options.background);
+    if (options.transparent) settings.emplace_back("image.transparent=true");
     return settings;
 }
 

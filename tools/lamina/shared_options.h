@@ -60,6 +60,7 @@ std::pair<int, int> pixels_of(const char* option, const std::string& text);
 struct ViewOptions {
     Words words;
     std::string size, background;
+    bool transparent = false;
 };
 
 void add_view_options(CLI::App& verb, ViewOptions& options);
