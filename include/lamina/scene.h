@@ -9,6 +9,7 @@
 #include <string>
 #include <variant>
 
+#include "lamina/annotations.h"
 #include "lamina/camera.h"
 #include "lamina/error.h"
 #include "lamina/image.h"
@@ -74,6 +75,7 @@ struct Scene {
     // Space in which colours and background are numbers, and in which the picture is composited.
     ImageColorSpace color_space = ImageColorSpace::linear;
     glm::dvec3 background{0};
+    Annotations annotations;
     Method method = Method::slice;
     Auto<Target> target = Target::float32;
     Emulation emulate;  // for Target::emulated

@@ -56,6 +56,13 @@ class Picture:
         return self._array
 
     @property
+    def annotations(self) -> np.ndarray | None:
+        """What is drawn beside the picture (keyword ``annotations``): an array of the shape and in the colour space of
+        ``array``, float32, associated, or ``None``. PNG files show it over the picture, EXR files have it as a layer."""
+        layer: np.ndarray | None = self._drawn.annotations
+        return layer
+
+    @property
     def error(self) -> float | None:
         """The largest error of the picture, in 1/255, of any pixel and channel; ``None`` if it is unknown: the scene
         states something that nothing was measured of (triangles, say), tets of the mesh overlap, or more than 8 was found.
@@ -103,11 +110,12 @@ class Picture:
 
     def save(self, file: Path) -> None:
         """Writes ``.exr`` (float32, with scene and plan), ``.npy`` (every number as it is) or ``.png`` (to look at, over
-        the scene's background). The file appears when it is complete."""
+        the scene's background and with its annotations). The file appears when it is complete."""
         scene = self._drawn.scene
         attributes = {"scene": scene.text(), "plan": self._drawn.explanation,
                       "renderer": str(self.stats["drawn_by"]), "software": f"lamina {_lamina.version}"}
-        _lamina.save_picture(self._array, pathlib.Path(file), scene.background, scene.color_space, attributes)
+        _lamina.save_picture(self._drawn, self._array, pathlib.Path(file), scene.background, scene.color_space,
+                             attributes)
 
     def compare(self, other: Any) -> Comparison:
         """Compares this picture with another one (a picture, an array, an EXR or NPY file): ``lamina.compare``."""
@@ -115,7 +123,7 @@ class Picture:
 
     def _repr_png_(self) -> bytes:
         scene = self._drawn.scene
-        return _lamina.picture_png(self._array, scene.background, scene.color_space)
+        return _lamina.picture_png(self._drawn, self._array, scene.background, scene.color_space)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
         return converted(self._array, dtype, copy)

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "annotation/layout.h"
 #include "choice/automatic_transfer.h"
 #include "choice/field.h"
 #include "lamina/camera.h"
@@ -23,8 +24,9 @@ struct ViewTurn {
 // with a margin of 1/25 of half the picture. In a patient's axes it looks from in front, a little
 // from the left and above, the head up; otherwise from +z, a little from +x and +y, with +y up.
 // `turn` is added. `all_around`: the points fit after any turn of the camera about its `up`.
+// `margins` are left free of the points.
 Camera fitted_camera(std::span<const glm::dvec3> points, WorldAxes axes, const ViewTurn& turn,
-                     int width, int height, bool all_around = false);
+                     int width, int height, bool all_around = false, PictureMargins margins = {});
 
 // Moves the camera around its centre. Its up vector moves along, so it can cross the poles.
 Camera turned(const Camera& camera, const ViewTurn& turn);

@@ -101,10 +101,12 @@ struct DisplayPicture {
     std::size_t clamped_pixels = 0;
 };
 
-DisplayPicture display_picture(const std::string& name, const Image& image,
+DisplayPicture display_picture(const std::string& name, const Image& picture,
                                const glm::dvec3& background, ImageColorSpace space) {
-    check_image_size(name, image.width, image.height);
-    require_finite(name, image);
+    check_image_size(name, picture.width, picture.height);
+    require_finite(name, picture);
+    Image annotated;
+    const Image& image = with_annotations(picture, annotated);
     constexpr double rounding = 1.0 / 510;
     DisplayPicture shown{CodedImage(image.width, image.height, 3, 8)};
     for (std::size_t pixel = 0; pixel < image.rgba.size() / 4; ++pixel) {
@@ -122,6 +124,20 @@ DisplayPicture display_picture(const std::string& name, const Image& image,
 }
 
 }  // namespace
+
+const Image& with_annotations(const Image& picture, Image& shown) {
+    if (!picture.annotations) return picture;
+    const Image& layer = *picture.annotations;
+    shown = picture;
+    shown.annotations.reset();
+    for (std::size_t i = 0; i < shown.rgba.size(); i += 4) {
+        const float share = layer.rgba[i + 3];
+        if (share == 0) continue;
+        for (std::size_t c = i; c < i + 4; ++c)
+            shown.rgba[c] = layer.rgba[c] + (1 - share) * shown.rgba[c];
+    }
+    return shown;
+}
 
 std::size_t write_png(OutputFile& file, const Image& image, const glm::dvec3& background,
                       ImageColorSpace space) {

@@ -14,7 +14,11 @@
 
 namespace lamina {
 
-// Writes a picture to look at: C + (1-A) * background, clamped to 0..1, encoded to sRGB if it is
+// Returns the picture with its annotations laid over it, or the picture itself if it has none.
+// `shown`: memory for the result.
+const Image& with_annotations(const Image& picture, Image& shown);
+
+// Writes a picture to look at, with its annotations: C + (1-A) * background, clamped to 0..1, encoded to sRGB if it is
 // linear light, as 8-bit RGB with an sRGB chunk and no time stamp. Returns how many pixels were
 // clamped by more than 1/510 in some channel; smaller excesses are rounding of a low-precision
 // target. Throws Error as write_exr() does. The caller commits the file.

@@ -126,6 +126,9 @@ void image_keys(KeyTable<Scene>& keys) {
              "What triples and colour maps are given in, and pictures composited in: linear "
              "light, or display values as VTK and ParaView do.");
     keys.key("background", &Scene::background, color_form());
+    keys.key("annotations", &Scene::annotations, annotations_form(),
+             "What is drawn beside the picture, in PNG files and on screens "
+             "(docs/annotations.md).");
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <sstream>
 #include <utility>
 
+#include "annotation/font.h"
 #include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
@@ -251,6 +252,15 @@ void add_view_options(CLI::App& verb, ViewOptions& options) {
                     "Colour behind the picture: a CSS name, #rrggbb, or linear light [r, g, b]")
         ->option_text("COLOR")
         ->group(group);
+    verb.add_flag("--legend", options.legend,
+                  "Draw a colour bar with the opacities beside the picture; of labels, a legend")
+        ->group(group);
+    verb.add_flag("--scale-bar", options.scale_bar, "Draw a length beside the picture")
+        ->group(group);
+    verb.add_flag("--axes", options.axes, "Draw arrows along the world's axes")->group(group);
+    verb.add_option("--title", options.title, "Write this above the picture")
+        ->option_text("TEXT")
+        ->group(group);
 }
 
 Adjustments adjustments_of(const ViewOptions& options, ImageColorSpace space) {
@@ -298,6 +308,22 @@ std::vector<std::string> settings_of(const ViewOptions& options) {
         settings.push_back(fmt::format("image.height={}", height));
     }
     if (!options.background.empty()) settings.push_back("image.background=" + options.background);
+    const auto add = [&](const char* key, const std::string& value) {
+        settings.push_back(fmt::format("image.annotations.{}={}", key, value));
+    };
+    if (options.legend) {
+        add("colorbar", "true");
+        add("labels", "true");
+    }
+    if (options.scale_bar) add("scale_bar", "true");
+    if (options.axes) add("axes", "true");
+    if (options.title.empty()) return settings;
+    try {
+        check_text("--title", options.title);
+    } catch (const Error& error) {
+        throw UsageError(error.what());
+    }
+    add("title", json_text(nlohmann::json(options.title)));
     return settings;
 }
 

@@ -60,6 +60,8 @@ struct ViewOptions {
     ViewTurn turn;
     double zoom = 1, density = 1;
     std::string size, colormap, range, background;
+    bool legend = false, scale_bar = false, axes = false;
+    std::string title;
 };
 
 void add_view_options(CLI::App& verb, ViewOptions& options);
