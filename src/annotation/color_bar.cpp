@@ -14,7 +14,7 @@ namespace {
 
 // Sizes in ems, but for the bar's height, which is a share of the picture's.
 constexpr double bar_share = 0.5, bar_width = 0.9, curve_width = 2.4, tick_length = 0.3,
-                 tick_gap = 0.25, least_tick_distance = 1.9, line = 1.35, caption_gap = 0.45,
+                 tick_gap = 0.25, least_tick_distance = 1.9, text_line = 1.35, caption_gap = 0.45,
                  small_text = 0.8, widest_caption = 9;
 constexpr int most_ticks = 11;
 // Largest opacity of a curve whose length is chosen; the round length below makes it .6 or more.
@@ -82,7 +82,7 @@ struct Bar {
 void Bar::draw(Pen& pen, const glm::dvec2& corner) const {
     const glm::dvec2 at(std::round(corner.x), std::round(corner.y));
     for (std::size_t i = 0; i < caption.size(); ++i)
-        pen.text(caption[i], at + glm::dvec2(0, em * (0.95 + line * double(i))), em);
+        pen.text(caption[i], at + glm::dvec2(0, em * (0.95 + text_line * double(i))), em);
     if (!opacity_text.empty()) draw_curve(pen, at);
     draw_colors(pen, at);
     draw_numbers(pen, at);
@@ -139,7 +139,7 @@ void Bar::draw_curve(Pen& pen, const glm::dvec2& at) const {
     const double figures = under + Font::capital_height(small);
     pen.text("1", at + glm::dvec2(0, figures), small);
     pen.text("0", at + glm::dvec2(base, figures), small, Align::right);
-    pen.text(opacity_text, at + glm::dvec2(0, figures + line * small), small);
+    pen.text(opacity_text, at + glm::dvec2(0, figures + text_line * small), small);
 }
 
 void Bar::draw_numbers(Pen& pen, const glm::dvec2& at) const {
@@ -227,11 +227,12 @@ ColorBar color_bar(Pen& pen, const Annotation& wanted, const Scene& scene,
         bar.length = length_of_opacity(scene, largest);
         bar.opacity_text = "opacity in " + length_text(bar.length, data.length_unit);
         bar.left = static_cast<int>(std::round(curve_width * em));
-        under = (0.4 + (1 + line) * small_text) * em;
+        under = (0.4 + (1 + text_line) * small_text) * em;
     }
     bar.width = std::max(1, static_cast<int>(std::round(bar_width * em)));
-    bar.top = std::round(
-        em * (bar.caption.empty() ? 0.4 : 0.2 + caption_gap + line * double(bar.caption.size())));
+    bar.top = std::round(em * (bar.caption.empty()
+                                   ? 0.4
+                                   : 0.2 + caption_gap + text_line * double(bar.caption.size())));
     const double most_rows = style.height - 2 * style.gap - bar.top - under - em;
     bar.rows = static_cast<int>(
         std::max(8.0, std::min(std::round(bar_share * wanted.size * style.height), most_rows)));

@@ -28,7 +28,7 @@ struct AnnotationStyle {
     Paint text_paint(double opacity = 1) const;
     Paint line_paint(double opacity = 1) const { return {ink, opacity, Paint::Edges::as_covered}; }
     // Thickness of lines in pixels, for text of this size.
-    double thickness(double em) const { return em / 12 > 1 ? em / 12 : 1; }
+    double thickness(double size) const { return size / 12 > 1 ? size / 12 : 1; }
 
     int width, height;
     ImageColorSpace space;
@@ -44,8 +44,8 @@ enum class Align { left, center, right };
 // Draws text and lines of a style. Without a canvas it only measures.
 class Pen {
   public:
-    Pen(const AnnotationStyle& style, Font& font, Canvas* canvas)
-        : style(style), font(font), canvas_(canvas) {}
+    Pen(const AnnotationStyle& of_picture, Font& of_text, Canvas* canvas)
+        : style(of_picture), font(of_text), canvas_(canvas) {}
 
     double width(std::string_view text, double size) { return font.width(text, size); }
     // Writes a line of text on the base line through `anchor`, which moves to a whole row.

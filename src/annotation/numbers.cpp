@@ -26,7 +26,11 @@ struct Round {
     }
 };
 
-Round round_up_to(double most) {
+// Smaller and larger numbers are taken for these: their powers of ten are no normal doubles.
+constexpr double least_round = 1e-300, largest_round = 1e300;
+
+Round round_up_to(double number) {
+    const double most = std::clamp(number, least_round, largest_round);
     // Down from a power of ten that is too large for sure.
     int exponent = static_cast<int>(std::floor(std::log10(most))) + 1;
     for (;; --exponent) {
@@ -46,7 +50,7 @@ Round next(const Round& round) {
 std::string tidied(const std::string& number) {
     const std::size_t e = number.find('e');
     std::string text = number.substr(0, e);
-    if (e != number.npos) text += "e" + std::to_string(std::stoi(number.substr(e + 1)));
+    if (e != number.npos) text += fmt::format("e{}", std::stoi(number.substr(e + 1)));
     for (std::size_t at = text.find('-'); at != text.npos; at = text.find('-', at))
         text.replace(at, 1, "\u2212");
     return text;
@@ -65,8 +69,8 @@ Ticks ticks_between(double lo, double hi, int most) {
         const double first = std::ceil(lo / ticks.step - 1e-9);
         const double last = std::floor(hi / ticks.step + 1e-9);
         if (last - first + 1 > most) continue;
-        for (double n = first; n <= last; ++n)
-            ticks.values.push_back(std::clamp(n * ticks.step, lo, hi));
+        for (int i = 0; first + i <= last && i < most; ++i)
+            ticks.values.push_back(std::clamp((first + i) * ticks.step, lo, hi));
         return ticks;
     }
 }

@@ -261,8 +261,13 @@ SceneMesh scene_mesh(const Scene& scene, MeshData data) {
     bool averaged = false;
     MeshScalar scalar = take_scalar(data, scene, averaged);
     const Stage matching("neighbours");
-    const std::string name = scalar.name;
-    return {TetMesh(std::move(data), name_of_mesh(scene)), std::move(scalar), averaged, {}, {name}};
+    Quantity quantity{scalar.name, {}};
+    return {TetMesh(std::move(data), name_of_mesh(scene)),
+            std::move(scalar),
+            averaged,
+            {},
+            {},
+            std::move(quantity)};
 }
 
 SceneMesh scene_mesh(const Scene& scene, const Volume& volume) {
@@ -281,6 +286,7 @@ SceneMesh scene_mesh(const Scene& scene, const Volume& volume) {
             std::move(scalar),
             false,
             report,
+            {},
             volume.quantity(),
             volume.grid().unit};
 }

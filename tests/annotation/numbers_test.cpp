@@ -20,7 +20,7 @@ TEST(Numbers, RoundDownToOneTwoOrFive) {
     EXPECT_EQ(round_number_up_to(std::nextafter(1000, 0)), 500);
     EXPECT_EQ(round_number_up_to(0.3), 0.2);
     EXPECT_EQ(round_number_up_to(1e-300), 1e-300);
-    EXPECT_EQ(round_number_up_to(7e300), 5e300);
+    EXPECT_EQ(round_number_up_to(7e299), 5e299);
 }
 
 TEST(Numbers, TicksAreMultiplesOfARoundStepInTheRange) {
@@ -43,6 +43,19 @@ TEST(Numbers, TicksAreMultiplesOfARoundStepInTheRange) {
             // The next smaller round step, at least two fifths of this one, makes too many.
             EXPECT_GT((hi - lo) / (0.4 * ticks.step) + 1, most);
         }
+    }
+}
+
+// Ends that are neighbours among doubles, or farther apart than the largest round number.
+TEST(Numbers, TicksEndForEveryRange) {
+    for (const auto& [lo, hi] : {std::pair(1e16, 1e16 + 2),
+                                 {-1e300, 1e300},
+                                 {0.0, 5e-324},
+                                 {3.0, std::nextafter(3.0, 4.0)}}) {
+        const Ticks ticks = ticks_between(lo, hi, 5);
+        EXPECT_LE(ticks.values.size(), 5u);
+        for (const std::string& text : number_texts(ticks.values, ticks.step))
+            EXPECT_LT(text.size(), 40u);
     }
 }
 

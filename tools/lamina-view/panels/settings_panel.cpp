@@ -433,7 +433,7 @@ void SettingsPanel::draw_either(const SettingNode& node, const std::string& path
     draw_label(node, {});
     ImGui::SetNextItemWidth(-1);
     const bool annotates = node.path.starts_with("image.annotations.");
-    const char* const made = annotates                ? "with settings"
+    const char* const made = annotates               ? "with settings"
                              : node.path == "volume" ? "generated"
                                                      : "made from the volume";
     const char* const typed = annotates ? "text" : "file";
