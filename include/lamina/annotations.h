@@ -39,7 +39,7 @@ struct Annotation {
     friend bool operator==(const Annotation&, const Annotation&) = default;
 };
 
-// What is drawn beside a picture (docs/annotations.md). It is no part of the picture's numbers.
+// All that is drawn beside a picture (docs/annotations.md). It is no part of the picture's numbers.
 struct Annotations {
     static constexpr std::size_t most_texts = 32;
 

@@ -31,9 +31,9 @@ struct RgbaImage {
     int height = 0;
     std::vector<Real> rgba;
     ImageColorSpace space = ImageColorSpace::linear;  // Scene::color_space of the scene it shows
-    // What is drawn beside the picture (lamina/annotations.h), of the same size and colour space,
-    // associated; null if nothing is. PNG files and screens show it over the picture, EXR files
-    // have it in a layer of its own. It is no part of the picture's numbers, errors and comparisons.
+    // Layer of what is drawn beside the picture (lamina/annotations.h), of the same size and colour
+    // space, associated; null if nothing is. PNG files and screens show it over the picture, EXR
+    // files have it as a layer. It is no part of the picture's numbers, errors and comparisons.
     std::shared_ptr<const RgbaImage<float>> annotations;
 
     RgbaImage() = default;

@@ -57,8 +57,9 @@ class Picture:
 
     @property
     def annotations(self) -> np.ndarray | None:
-        """What is drawn beside the picture (keyword ``annotations``): an array of the shape and in the colour space of
-        ``array``, float32, associated, or ``None``. PNG files show it over the picture, EXR files have it as a layer."""
+        """The layer of what is drawn beside the picture (keyword ``annotations``): an array of the shape and in the colour
+        space of ``array``, float32, associated; or ``None``. PNG files show it over the picture, EXR files have it as a
+        layer."""
         layer: np.ndarray | None = self._drawn.annotations
         return layer
 

@@ -111,6 +111,14 @@ void warn_of_misfits(const std::vector<Block>& blocks, const std::vector<Rectang
     }
 }
 
+// Reduces two opposite margins, so that the data keep at least two fifths of the picture.
+void limit(double& low, double& high, double whole) {
+    const double most = 0.6 * whole, sum = low + high;
+    if (sum <= most) return;
+    low *= most / sum;
+    high *= most / sum;
+}
+
 }  // namespace
 
 PictureMargins annotation_margins(const Scene& scene, const AnnotatedData& data) {
@@ -122,11 +130,13 @@ PictureMargins annotation_margins(const Scene& scene, const AnnotatedData& data)
     Scene open = scene;
     open.camera = automatic;
     PictureMargins margins = margins_of(blocks_of(pen, open, data), style);
-    if (!scene.annotations.box) return margins;
-    // Numbers stand outside of the box.
-    const double numbers = 2.5 * style.em * scene.annotations.box->size;
-    for (double* const margin : {&margins.left, &margins.right, &margins.bottom})
-        *margin += numbers;
+    if (scene.annotations.box) {  // numbers stand outside of it
+        const double numbers = 2.5 * style.em * scene.annotations.box->size;
+        for (double* const margin : {&margins.left, &margins.right, &margins.bottom})
+            *margin += numbers;
+    }
+    limit(margins.left, margins.right, style.width);
+    limit(margins.top, margins.bottom, style.height);
     return margins;
 }
 

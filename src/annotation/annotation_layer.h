@@ -15,7 +15,7 @@
 
 namespace lamina {
 
-// What annotations tell of the data.
+// Properties of data that annotations tell.
 struct AnnotatedData {
     Quantity quantity;        // of the values
     std::string length_unit;  // empty if it is unknown

@@ -129,7 +129,7 @@ PictureMargins margins_of(const std::vector<Block>& blocks, const AnnotationStyl
         if (!blocks[i].makes_room) continue;
         const Rectangle& place = places[i];
         const Side x = across(blocks[i].position), y = down(blocks[i].position);
-        // What stands beside the picture's middle takes a margin at the side, all else one above or
+        // Blocks beside the picture's middle take a margin at the side, all others one above or
         // below.
         if (y == Side::middle && x == Side::low)
             margins.left = std::max(margins.left, place.right() + style.gap / 2);
@@ -140,15 +140,6 @@ PictureMargins margins_of(const std::vector<Block>& blocks, const AnnotationStyl
         else
             margins.bottom = std::max(margins.bottom, style.height - place.top);
     }
-    // The data keep at least two fifths of the picture each way.
-    const auto limit = [](double& low, double& high, double whole) {
-        const double most = 0.6 * whole, sum = low + high;
-        if (sum <= most) return;
-        low *= most / sum;
-        high *= most / sum;
-    };
-    limit(margins.left, margins.right, style.width);
-    limit(margins.top, margins.bottom, style.height);
     return margins;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What shows the world's axes: the triad, and the box around the data.
+// Lines that show the world's axes: the triad, and the box around the data.
 
 #include <functional>
 

@@ -256,8 +256,10 @@ std::string chosen_text(const std::vector<std::string>& reasons) {
 // axis: then this holds for r - m d and R - m D.
 Camera fitted_camera(std::span<const glm::dvec3> points, WorldAxes axes, const ViewTurn& turn,
                      int width, int height, bool all_around, PictureMargins margins) {
-    // What lies on the camera's axis of turning stays in the middle of the picture.
-    if (all_around) margins.left = margins.right = std::max(margins.left, margins.right);
+    // The camera's axis of turning stays in the middle of the picture.
+    if (all_around) {
+        margins.left = margins.right = std::min(std::max(margins.left, margins.right), 0.3 * width);
+    }
     const Axes to = turned(axes_of(axes), {three_quarter_azimuth + turn.azimuth,
                                            three_quarter_elevation + turn.elevation});
     Camera camera;

@@ -167,7 +167,7 @@ class Pipeline {
     SceneRenderer* own_ = nullptr;  // frames_ as SceneRenderer; null if make_frames made them
     std::optional<TracePlan> trace_plan_;
     std::optional<TracedPicture> traced_;
-    // What annotations tell of the data, which are `annotated_of_`.
+    // Properties that annotations tell of the data, which are `annotated_of_`.
     std::optional<AnnotatedData> annotated_;
     std::weak_ptr<const void> annotated_of_;
     bool annotated_labels_ = false;  // with the labels listed

@@ -173,6 +173,12 @@ TEST(AnnotationMargins, AreOnTheSidesOfTheAnnotations) {
     scene.annotations.colorbar.reset();
     scene.annotations.title = titled("x");
     EXPECT_GT(annotation_margins(scene, plain_data()).top, 10);
+    // The data keep two fifths of a picture that is too small for what is wanted.
+    scene.annotations.colorbar = scene.annotations.scale_bar = scene.annotations.box = Annotation{};
+    scene.width = scene.height = 16;
+    const PictureMargins small = annotation_margins(scene, plain_data());
+    EXPECT_NEAR(small.left + small.right, 0.6 * 16, 1e-12);
+    EXPECT_NEAR(small.top + small.bottom, 0.6 * 16, 1e-12);
 }
 
 }  // namespace
