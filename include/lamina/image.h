@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +31,10 @@ struct RgbaImage {
     int height = 0;
     std::vector<Real> rgba;
     ImageColorSpace space = ImageColorSpace::linear;  // Scene::color_space of the scene it shows
+    // Layer of what is drawn beside the picture (lamina/annotations.h), of the same size and colour
+    // space, associated; null if nothing is. PNG files and screens show it over the picture, EXR
+    // files have it as a layer. It is no part of the picture's numbers, errors and comparisons.
+    std::shared_ptr<const RgbaImage<float>> annotations;
 
     RgbaImage() = default;
     RgbaImage(int width_pixels, int height_pixels)

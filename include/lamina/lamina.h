@@ -2,6 +2,7 @@
 // Includes all public headers: scenes, sessions that draw them, pictures and their errors.
 #pragma once
 
+#include "lamina/annotations.h"
 #include "lamina/camera.h"
 #include "lamina/color.h"
 #include "lamina/error.h"

@@ -9,6 +9,7 @@
 #include <string>
 #include <variant>
 
+#include "lamina/annotations.h"
 #include "lamina/camera.h"
 #include "lamina/error.h"
 #include "lamina/image.h"
@@ -76,6 +77,7 @@ struct Scene {
     glm::dvec3 background{0};
     bool transparent = false;  // PNG files have straight alpha and no background
     int png_bits = 8;          // of the codes of PNG files: 8 or 16
+    Annotations annotations;
     Method method = Method::slice;
     Auto<Target> target = Target::float32;
     Emulation emulate;  // for Target::emulated

@@ -74,6 +74,13 @@ LAMINA_API const char* name_of(SampleType type);  // "uint8", "int16", "uint16",
 
 class VolumeStore;
 
+// What samples measure, as a file names it; each is empty if the file does not say.
+struct Quantity {
+    std::string name, unit;
+
+    friend bool operator==(const Quantity&, const Quantity&) = default;
+};
+
 // A label of a volume whose samples are labels (docs/scene.md, "Labels").
 struct Label {
     double code = 0;                    // value of its samples
@@ -116,6 +123,13 @@ class Volume {
         other.labels_ = std::move(labels);
         return other;
     }
+    const Quantity& quantity() const { return quantity_; }
+    // Returns the same samples of another quantity.
+    Volume measuring(Quantity quantity) const {
+        Volume other = *this;
+        other.quantity_ = std::move(quantity);
+        return other;
+    }
     // Returns the same samples on another grid, which must have the same number of them along each
     // axis.
     Volume on(const Grid& grid) const {
@@ -153,6 +167,7 @@ class Volume {
     std::shared_ptr<const void> samples_;
     std::shared_ptr<const VolumeStore> store_;
     std::shared_ptr<const VolumeLabels> labels_;
+    Quantity quantity_;
 };
 
 // Layout of the samples in a file without a header; x changes fastest.

@@ -56,6 +56,14 @@ class Picture:
         return self._array
 
     @property
+    def annotations(self) -> np.ndarray | None:
+        """The layer of what is drawn beside the picture (keyword ``annotations``): an array of the shape and in the colour
+        space of ``array``, float32, associated; or ``None``. PNG files show it over the picture, EXR files have it as a
+        layer."""
+        layer: np.ndarray | None = self._drawn.annotations
+        return layer
+
+    @property
     def error(self) -> float | None:
         """The largest error of the picture, in 1/255, of any pixel and channel; ``None`` if it is unknown: the scene
         states something that nothing was measured of (triangles, say), tets of the mesh overlap, or more than 8 was found.
@@ -104,12 +112,12 @@ class Picture:
     def save(self, file: Path, *, transparent: bool | None = None) -> None:
         """Writes ``.exr`` (float32, with scene and plan), ``.npy`` (every number as it is) or ``.png`` (to look at, over
         the scene's background or, if ``transparent``, without one and with straight alpha; unless given, as the scene's
-        key says). The file appears when it is complete."""
+        key says; with the scene's annotations). The file appears when it is complete."""
         scene = self._drawn.scene
         alpha = scene.transparent if transparent is None else transparent
         attributes = {"scene": scene.text(), "plan": self._drawn.explanation,
                       "renderer": str(self.stats["drawn_by"]), "software": f"lamina {_lamina.version}"}
-        _lamina.save_picture(self._array, pathlib.Path(file), scene.background, alpha, scene.png_bits,
+        _lamina.save_picture(self._drawn, self._array, pathlib.Path(file), scene.background, alpha, scene.png_bits,
                              scene.color_space, attributes)
 
     def compare(self, other: Any) -> Comparison:
@@ -118,7 +126,7 @@ class Picture:
 
     def _repr_png_(self) -> bytes:
         scene = self._drawn.scene
-        return _lamina.picture_png(self._array, scene.background, scene.transparent, 8, scene.color_space)
+        return _lamina.picture_png(self._drawn, self._array, scene.background, scene.transparent, 8, scene.color_space)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
         return converted(self._array, dtype, copy)

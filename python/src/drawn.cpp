@@ -19,6 +19,12 @@ py::list omissions_of(const Drawn& drawn) {
     return omissions;
 }
 
+py::object annotations_of(const Drawn& drawn) {
+    const std::shared_ptr<const Image>& layer = drawn.annotations();
+    if (!layer) return py::none();
+    return constant_array_over(layer->rgba.data(), {layer->height, layer->width, 4}, layer);
+}
+
 py::dict statistics_of(const Drawn& drawn) {
     const FrameStatistics& found = drawn.statistics;
     py::dict statistics;
@@ -47,6 +53,7 @@ std::string Drawn::error_kind() const {
 void bind_drawn(py::module_& module) {
     py::class_<Drawn>(module, "Drawn")
         .def_property_readonly("array", &Drawn::array)
+        .def_property_readonly("annotations", &annotations_of)
         .def_property_readonly("error", &Drawn::error)
         .def_property_readonly("error_kind", &Drawn::error_kind)
         .def_readonly("scene", &Drawn::scene)

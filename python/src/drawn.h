@@ -21,6 +21,10 @@ struct Drawn {
     std::vector<std::string> warnings;
 
     py::array array() const;
+    // Returns what is drawn beside the picture; null if nothing is.
+    const std::shared_ptr<const Image>& annotations() const {
+        return truth ? truth->annotations : picture->annotations;
+    }
     bool is_traced() const { return truth || scene.method == Method::trace; }
     // In 1/255: the plan's, or the tracer's estimate; none if it is unknown.
     std::optional<double> error() const;

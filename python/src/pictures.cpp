@@ -3,6 +3,7 @@
 #include <map>
 
 #include "bindings.h"
+#include "drawn.h"
 #include "shared_array.h"
 #include "vectors.h"
 
@@ -28,9 +29,12 @@ ImageColorSpace space_of(const std::string& word) {
 
 using Attributes = std::map<std::string, std::string>;
 
-void save(const py::array& pixels, const std::filesystem::path& file, const Vector& background,
-          bool transparent, int bits, const std::string& space, const Attributes& attributes) {
-    const auto write = [&](const auto& image) {
+// Pixels are those of `drawn`, or what its user made of them; its annotations are added.
+void save(const Drawn& drawn, const py::array& pixels, const std::filesystem::path& file,
+          const Vector& background, bool transparent, int bits, const std::string& space,
+          const Attributes& attributes) {
+    const auto write = [&](auto image) {
+        image.annotations = drawn.annotations();
         const py::gil_scoped_release released;
         save_picture(image, file, {to_glm(background), transparent, bits}, attributes);
     };
@@ -40,9 +44,10 @@ void save(const py::array& pixels, const std::filesystem::path& file, const Vect
         write(image_of<float>(FloatPixels(pixels), space_of(space)));
 }
 
-py::bytes png_of(const FloatPixels& pixels, const Vector& background, bool transparent, int bits,
-                 const std::string& space) {
-    const Image image = image_of<float>(pixels, space_of(space));
+py::bytes png_of(const Drawn& drawn, const FloatPixels& pixels, const Vector& background,
+                 bool transparent, int bits, const std::string& space) {
+    Image image = image_of<float>(pixels, space_of(space));
+    image.annotations = drawn.annotations();
     std::string bytes;
     {
         const py::gil_scoped_release released;
@@ -99,9 +104,10 @@ py::tuple loaded(const std::filesystem::path& file) {
 }  // namespace
 
 void bind_pictures(py::module_& module) {
-    module.def("save_picture", &save, py::arg("pixels"), py::arg("file"), py::arg("background"),
-               py::arg("transparent"), py::arg("bits"), py::arg("space"), py::arg("attributes"));
-    module.def("picture_png", &png_of, py::arg("pixels"), py::arg("background"),
+    module.def("save_picture", &save, py::arg("drawn"), py::arg("pixels"), py::arg("file"),
+               py::arg("background"), py::arg("transparent"), py::arg("bits"), py::arg("space"),
+               py::arg("attributes"));
+    module.def("picture_png", &png_of, py::arg("drawn"), py::arg("pixels"), py::arg("background"),
                py::arg("transparent"), py::arg("bits"), py::arg("space"));
     module.def("compare", &compared, py::arg("a"), py::arg("b"));
     module.def("compare_files", &files_compared, py::arg("a"), py::arg("b"));

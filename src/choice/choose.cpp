@@ -203,8 +203,10 @@ std::string choose_camera(const Adjustments& adjustments, const Field& field, Sc
     ViewTurn turn = turn_to(adjustments.side.value_or(ViewSide::iso), from);
     turn.azimuth += adjustments.turn.azimuth;
     turn.elevation += adjustments.turn.elevation;
+    const PictureMargins margins =
+        annotation_margins(scene, annotated_data(field, scene.annotations.labels.has_value()));
     scene.camera = fitted_camera(points_to_fit(scene, field), from.front, turn, scene.width,
-                                 scene.height, adjustments.all_around);
+                                 scene.height, adjustments.all_around, margins);
     if (!adjustments.side) return from.reason;
     return fmt::format("{}; view: {}", from.reason, name_of(*adjustments.side));
 }
@@ -282,31 +284,44 @@ std::string chosen_text(const std::vector<std::string>& reasons) {
 
 // Coordinates are right, up and depth along the view. An eye (R, U, D), with edges of slope s, sees
 // a point (r, u, d) if |r - R| <= s (d - D). So R lies between max(r - s d) + s D and min(r + s d)
-// - s D; at the largest possible D, the nearest eye, both are equal. Likewise for u and U.
+// - s D; at the largest possible D, the nearest eye, both are equal. Likewise for u and U. With
+// margins, the free part of the picture has its middle on another ray of slope m than the view's
+// axis: then this holds for r - m d and R - m D.
 Camera fitted_camera(std::span<const glm::dvec3> points, const Axes& front, const ViewTurn& turn,
-                     int width, int height, bool all_around) {
+                     int width, int height, bool all_around, PictureMargins margins) {
+    // The camera's axis of turning stays in the middle of the picture.
+    if (all_around) {
+        margins.left = margins.right = std::min(std::max(margins.left, margins.right), 0.3 * width);
+    }
     const Axes to = turned(front, turn);
     Camera camera;
     camera.fov_y = fov_y;
     camera.up = upright(front.up, to);
-    const double slope_up = std::tan(fov_y / 2 * degree) * (1 - margin);
-    const double slope_right = slope_up * width / height;
+    const double slope_of_edge = std::tan(fov_y / 2 * degree);
+    const double free_up = 1 - (margins.top + margins.bottom) / height;
+    const double free_right = 1 - (margins.left + margins.right) / width;
+    const double slope_up = slope_of_edge * (1 - margin) * free_up;
+    const double slope_right = slope_of_edge * (1 - margin) * width / height * free_right;
+    const double middle_up = slope_of_edge * (margins.bottom - margins.top) / height;
+    const double middle_right = slope_of_edge * (margins.left - margins.right) / height;
+    const glm::dvec3 right = to.right + middle_right * to.toward;
+    const glm::dvec3 upward = to.up + middle_up * to.toward;
     // Points are taken relative to their middle, so that a distant origin costs no precision.
     const glm::dvec3 middle = middle_of(points);
     const Reach reach{camera.up, all_around};
     Extent right_near, right_far, up_near, up_far, toward;
     for (const glm::dvec3& point : points) {
         const glm::dvec3 arm = point - middle;
-        reach.add(arm, to.right + slope_right * to.toward, right_near);
-        reach.add(arm, to.right - slope_right * to.toward, right_far);
-        reach.add(arm, to.up + slope_up * to.toward, up_near);
-        reach.add(arm, to.up - slope_up * to.toward, up_far);
+        reach.add(arm, right + slope_right * to.toward, right_near);
+        reach.add(arm, right - slope_right * to.toward, right_far);
+        reach.add(arm, upward + slope_up * to.toward, up_near);
+        reach.add(arm, upward - slope_up * to.toward, up_far);
         reach.add(arm, to.toward, toward);
     }
     const double eye_depth = std::min((right_far.lo - right_near.hi) / (2 * slope_right),
                                       (up_far.lo - up_near.hi) / (2 * slope_up));
-    const double eye_right = (right_far.lo + right_near.hi) / 2;
-    const double eye_up = (up_far.lo + up_near.hi) / 2;
+    const double eye_right = (right_far.lo + right_near.hi) / 2 + middle_right * eye_depth;
+    const double eye_up = (up_far.lo + up_near.hi) / 2 + middle_up * eye_depth;
     const glm::dvec3 across = eye_right * to.right + eye_up * to.up;
     camera.eye = middle + across - eye_depth * to.toward;
     // The centre lies on the view's axis: at the middle of the visible points or, if the camera

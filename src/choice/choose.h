@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "annotation/layout.h"
 #include "choice/automatic_transfer.h"
 #include "choice/field.h"
 #include "choice/opacity_presets.h"
@@ -20,8 +21,9 @@ namespace lamina {
 // Returns a perspective camera in whose picture one or more points just fit, with a margin of 1/25
 // of half the picture: the one of these axes, turned by `turn`. Its `up` is that of the axes unless
 // the view is along it. `all_around`: the points fit after any turn of the camera about its `up`.
+// `margins` are left free of the points.
 Camera fitted_camera(std::span<const glm::dvec3> points, const Axes& front, const ViewTurn& turn,
-                     int width, int height, bool all_around = false);
+                     int width, int height, bool all_around = false, PictureMargins margins = {});
 
 // Moves the camera around its centre. Its `up` stays, so that turntables stand upright, unless the
 // view is along it or beyond a pole.

@@ -482,6 +482,29 @@ std::vector<double> MeshField::optical_depths(const Scene& scene) const {
     return depths;
 }
 
+AnnotatedData annotated_data(const Field& field, bool with_labels) {
+    const VolumeLabels* const named = field.labels();
+    AnnotatedData data{field.quantity(),
+                       field.length_unit(),
+                       field.axes(),
+                       field.corners(),
+                       field.range(),
+                       named != nullptr,
+                       {}};
+    if (named == nullptr || !with_labels) return data;
+    const ValueDistribution values = field.distribution();
+    auto next = named->list.begin();
+    for (std::size_t i = 0; i < values.distinct(); ++i) {
+        const double code = values.value(i);
+        while (next != named->list.end() && next->code < code) ++next;
+        if (next != named->list.end() && next->code == code)
+            data.labels.push_back(*next);
+        else
+            data.labels.push_back({code, fmt::format("{:.0f}", code)});
+    }
+    return data;
+}
+
 std::vector<glm::dvec3> hull_of_shown_cells(const Volume& volume, const MinMaxBricks& bricks,
                                             const Shows& shows) {
     const Grid& grid = volume.grid();

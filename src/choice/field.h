@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <string>
 #include <vector>
 
+#include "annotation/annotation_layer.h"
 #include "choice/value_distribution.h"
 #include "lamina/scene.h"
 #include "lamina/volume.h"
@@ -22,8 +24,10 @@ class Field {
   public:
     virtual ~Field() = default;
 
-    virtual WorldAxes axes() const = 0;    // named for meshes: in simulations z is up
-    virtual ValueRange range() const = 0;  // range of the finite values
+    virtual WorldAxes axes() const = 0;           // named for meshes: in simulations z is up
+    virtual Quantity quantity() const = 0;        // that the values measure
+    virtual std::string length_unit() const = 0;  // of the world; empty if it is unknown
+    virtual ValueRange range() const = 0;         // range of the finite values
     // Returns the world distance over which the data resolve changes: the least distance of samples
     // (infinite for a single one), or the mean edge of the tets.
     virtual double spacing() const = 0;
@@ -57,6 +61,8 @@ class VolumeField : public Field {
           values_(data.values ? &*data.values : nullptr) {}
 
     WorldAxes axes() const override { return volume_.grid().axes; }
+    Quantity quantity() const override { return volume_.quantity(); }
+    std::string length_unit() const override { return volume_.grid().unit; }
     ValueRange range() const override { return bricks_.whole; }
     double spacing() const override;
     bool whole_numbers() const override { return volume_.type() != SampleType::float32; }
@@ -80,6 +86,8 @@ class MeshField : public Field {
     explicit MeshField(const SceneMesh& mesh) : mesh_(mesh) {}
 
     WorldAxes axes() const override { return WorldAxes::named; }
+    Quantity quantity() const override { return mesh_.quantity; }
+    std::string length_unit() const override { return mesh_.length_unit; }
     ValueRange range() const override { return measure_range(mesh_.scalar.values).range; }
     double spacing() const override;                       // mean over the six edges of all tets
     bool whole_numbers() const override { return false; }  // false: tets interpolate values
@@ -96,6 +104,10 @@ class MeshField : public Field {
   private:
     const SceneMesh& mesh_;
 };
+
+// Returns what annotations tell of the data. `with_labels`: lists the labels that occur in them,
+// for which the values are counted.
+AnnotatedData annotated_data(const Field& field, bool with_labels);
 
 // Returns world points whose convex hull holds all visible cells, outer half voxels included; none
 // if no cell is visible. A cell is visible if shows(range of its corners' finite samples) is true;

@@ -185,6 +185,9 @@ class HeaderWalk {
 
 constexpr const char* space_attribute = "color_space";
 constexpr const char* rgba_names[4] = {"R", "G", "B", "A"};
+// Channels of the layer of annotations. Readers of the picture leave them alone.
+constexpr const char* annotation_names[4] = {"annotation.R", "annotation.G", "annotation.B",
+                                             "annotation.A"};
 constexpr std::size_t pixel_bytes = 4 * sizeof(float);
 
 // Lets OpenEXR write into an OutputFile.
@@ -234,10 +237,14 @@ void write_pixels(FileStream& stream, const Image& image,
     if (space != ImageColorSpace::linear)
         header.insert(space_attribute, Imf::StringAttribute(name_of(space)));
     Imf::FrameBuffer pixels;
-    for (int channel = 0; channel < 4; ++channel) {
-        header.channels().insert(rgba_names[channel], Imf::Channel(Imf::FLOAT));
-        pixels.insert(rgba_names[channel], slice(image, channel, header.dataWindow(), 0));
-    }
+    const auto add = [&](const Image& layer, const char* const (&names)[4]) {
+        for (int channel = 0; channel < 4; ++channel) {
+            header.channels().insert(names[channel], Imf::Channel(Imf::FLOAT));
+            pixels.insert(names[channel], slice(layer, channel, header.dataWindow(), 0));
+        }
+    };
+    add(image, rgba_names);
+    if (image.annotations) add(*image.annotations, annotation_names);
     Imf::OutputFile output(stream, header);
     output.setFrameBuffer(pixels);
     output.writePixels(image.height);

@@ -10,7 +10,8 @@
 
 namespace lamina {
 
-// Writes R, G, B, A as 32-bit float with ZIP compression, and the attributes as strings
+// Writes R, G, B, A as 32-bit float with ZIP compression, annotations as the layer "annotation",
+// and the attributes as strings
 // ("color_space" "display": display values), without a time stamp: equal images make equal files.
 // Throws Error if a component is not finite or the disk is full. The caller commits the file.
 void write_exr(OutputFile& file, const Image& image,

@@ -60,6 +60,7 @@ template void require_finite(const std::string&, const PreciseImage&);
 Image to_float(const PreciseImage& image) {
     Image rounded(image.width, image.height);
     rounded.space = image.space;
+    rounded.annotations = image.annotations;
     std::transform(image.rgba.begin(), image.rgba.end(), rounded.rgba.begin(),
                    [](double value) { return static_cast<float>(value); });
     return rounded;
@@ -68,6 +69,7 @@ Image to_float(const PreciseImage& image) {
 PreciseImage to_double(const Image& image) {
     PreciseImage precise(image.width, image.height);
     precise.space = image.space;
+    precise.annotations = image.annotations;
     precise.rgba.assign(image.rgba.begin(), image.rgba.end());
     return precise;
 }

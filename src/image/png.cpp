@@ -159,10 +159,26 @@ ShownPixel shown_pixel(const float* rgba, const PngLook& look) {
 
 }  // namespace
 
-CodedPicture coded_picture(const std::string& name, const Image& image, const PngLook& look,
+const Image& with_annotations(const Image& picture, Image& shown) {
+    if (!picture.annotations) return picture;
+    const Image& layer = *picture.annotations;
+    shown = picture;
+    shown.annotations.reset();
+    for (std::size_t i = 0; i < shown.rgba.size(); i += 4) {
+        const float share = layer.rgba[i + 3];
+        if (share == 0) continue;
+        for (std::size_t c = i; c < i + 4; ++c)
+            shown.rgba[c] = layer.rgba[c] + (1 - share) * shown.rgba[c];
+    }
+    return shown;
+}
+
+CodedPicture coded_picture(const std::string& name, const Image& picture, const PngLook& look,
                            ImageColorSpace space) {
-    check_image_size(name, image.width, image.height);
-    require_finite(name, image);
+    check_image_size(name, picture.width, picture.height);
+    require_finite(name, picture);
+    Image annotated;
+    const Image& image = with_annotations(picture, annotated);
     const std::size_t channels = look.transparent ? 4 : 3;
     CodedPicture coded{CodedImage(image.width, image.height, static_cast<int>(channels), look.bits),
                        0};

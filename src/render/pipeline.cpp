@@ -364,6 +364,30 @@ void Pipeline::draw_counted() {
     counted_fragments_ = static_cast<std::int64_t>(query.result());
 }
 
+// The values of data whose labels are listed are counted once.
+const AnnotatedData& Pipeline::annotated() {
+    const bool labels = scene_.annotations.labels.has_value();
+    std::shared_ptr<const void> drawn;
+    if (scene_.draws_mesh())
+        drawn = data_.mesh(scene_);
+    else
+        drawn = data_.volume(scene_);
+    if (annotated_ && annotated_of_.lock() == drawn && annotated_labels_ == labels)
+        return *annotated_;
+    annotated_of_ = drawn;
+    annotated_labels_ = labels;
+    return annotated_.emplace(annotated_data(*field(), labels));
+}
+
+template <typename Real>
+void Pipeline::label(RgbaImage<Real>& picture) {
+    picture.space = scene_.color_space;
+    picture.annotations.reset();
+    if (!scene_.annotations.any()) return;
+    const Stage drawing("annotate");
+    picture.annotations = annotation_layer(scene_, annotated(), picture);
+}
+
 void Pipeline::read_frame(Image& picture) {
     frames_->read(picture);
     label(picture);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "annotation/annotation_layer.h"
 #include "choice/choose.h"
 #include "lamina/image.h"
 #include "lamina/report.h"
@@ -147,11 +148,10 @@ class Pipeline {
     void draw_counted();
     // Gets the frame that was drawn last. The context must be current.
     void read_frame(Image& picture);
-    // Sets the colour space of a picture of the scene.
+    // Sets colour space and annotations of a picture of the scene.
     template <typename Real>
-    void label(RgbaImage<Real>& picture) const {
-        picture.space = scene_.color_space;
-    }
+    void label(RgbaImage<Real>& picture);
+    const AnnotatedData& annotated();
     const TracePlan& plan_of_trace();
     TracedPicture traced_now(const TileDone& tile_done);
     void check_data();  // as plans do
@@ -169,6 +169,10 @@ class Pipeline {
     SceneRenderer* own_ = nullptr;  // frames_ as SceneRenderer; null if make_frames made them
     std::optional<TracePlan> trace_plan_;
     std::optional<TracedPicture> traced_;
+    // Properties that annotations tell of the data, which are `annotated_of_`.
+    std::optional<AnnotatedData> annotated_;
+    std::weak_ptr<const void> annotated_of_;
+    bool annotated_labels_ = false;  // with the labels listed
     std::map<std::string, double> stages_ms_;
     std::optional<std::int64_t> counted_fragments_;
     int frames_drawn_ = 0;

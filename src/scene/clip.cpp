@@ -275,9 +275,9 @@ std::shared_ptr<const SceneMesh> clipped_mesh(const std::shared_ptr<const SceneM
     data = cut_mesh(std::move(data), halves, mesh->mesh.places());
     if (data.tets.empty()) return nullptr;
     std::vector<MeshScalar> scalars = std::exchange(data.point_scalars, {});
-    return std::make_shared<const SceneMesh>(SceneMesh{TetMesh(std::move(data), name),
-                                                       std::move(scalars.front()), mesh->averaged,
-                                                       mesh->report, gradients_in(scalars)});
+    return std::make_shared<const SceneMesh>(
+        SceneMesh{TetMesh(std::move(data), name), std::move(scalars.front()), mesh->averaged,
+                  mesh->report, gradients_in(scalars), mesh->quantity, mesh->length_unit});
 }
 
 std::vector<HalfSpace> half_spaces(const Clip& clip) {

@@ -261,7 +261,13 @@ SceneMesh scene_mesh(const Scene& scene, MeshData data) {
     bool averaged = false;
     MeshScalar scalar = take_scalar(data, scene, averaged);
     const Stage matching("neighbours");
-    return {TetMesh(std::move(data), name_of_mesh(scene)), std::move(scalar), averaged, {}};
+    Quantity quantity{scalar.name, {}};
+    return {TetMesh(std::move(data), name_of_mesh(scene)),
+            std::move(scalar),
+            averaged,
+            {},
+            {},
+            std::move(quantity)};
 }
 
 SceneMesh scene_mesh(const Scene& scene, const Volume& volume) {
@@ -276,7 +282,13 @@ SceneMesh scene_mesh(const Scene& scene, const Volume& volume) {
     MeshScalar scalar = std::move(data.point_scalars.front());
     data.point_scalars.clear();
     const Stage matching("neighbours");
-    return {TetMesh(std::move(data), name_of_mesh(scene)), std::move(scalar), false, report};
+    return {TetMesh(std::move(data), name_of_mesh(scene)),
+            std::move(scalar),
+            false,
+            report,
+            {},
+            volume.quantity(),
+            volume.grid().unit};
 }
 
 SceneMesh load_mesh(const Scene& scene) {

@@ -53,6 +53,8 @@ struct SceneMesh {
     std::optional<MeshReport> report;  // only for a mesh made from the scene's volume
     // Gradients at the points, per world unit, before the clip; empty unless a lit mesh was cut.
     std::vector<glm::dvec3> gradients_before_clip = {};
+    Quantity quantity = {};        // that the scalar measures
+    std::string length_unit = {};  // of the world; empty if it is unknown
 };
 
 // Returns the gradients at the points by which the mesh is lit (docs/numerics.md, section 10).

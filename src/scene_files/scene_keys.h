@@ -18,6 +18,7 @@ std::string scene_schema_text();
 // Adds the keys of the view: "camera", "clip", "lighting", "image" (view_keys.cpp).
 void add_view_keys(KeyTable<Scene>& scene);
 void camera_keys(KeyTable<Camera>& keys);
+Form<Annotations> annotations_form();  // of "image.annotations" (annotation_keys.cpp)
 
 // Adds the keys of "render" (render_keys.cpp), which are read after those of the data.
 void render_keys(KeyTable<Scene>& keys);

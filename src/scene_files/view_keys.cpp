@@ -136,6 +136,9 @@ void image_keys(KeyTable<Scene>& keys) {
     keys.key("transparent", &Scene::transparent, flag_form(),
              "PNG files and films have straight alpha and no background.");
     keys.key("png_bits", &Scene::png_bits, code_bits_form(), "Of each code in PNG files.");
+    keys.key("annotations", &Scene::annotations, annotations_form(),
+             "What is drawn beside the picture, in PNG files and on screens "
+             "(docs/annotations.md).");
 }
 
 }  // namespace

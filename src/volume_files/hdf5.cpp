@@ -268,6 +268,7 @@ Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request
                           request};
     auto process = std::make_unique<Hdf5Process>(place);
     const Hdf5Head& head = process->head();
+    const Quantity quantity = head.quantity;
     const auto type = drawn_type(head.type);
     const bool is_scaled = head.scale != 1 || head.offset != 0;
     if (use.contents != nullptr) *use.contents = head.contents;
@@ -281,14 +282,17 @@ Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request
     } else if (stays_in_files(head.place.grid, *type, use)) {
         if (head.raw.offset < 0)
             return stored_volume(head.place.grid, *type,
-                                 std::make_unique<Hdf5Source>(place, std::move(process)));
+                                 std::make_unique<Hdf5Source>(place, std::move(process)))
+                .measuring(quantity);
         return stored_volume(
-            head.place.grid, *type,
-            std::make_unique<FileSource>(raw_data(named.file, head), head.place.grid.size));
+                   head.place.grid, *type,
+                   std::make_unique<FileSource>(raw_data(named.file, head), head.place.grid.size))
+            .measuring(quantity);
     }
     return drawn_volume(head.place.grid,
                         {path.string(), head.type, process->read_all(), head.scale, head.offset},
-                        use.lookup);
+                        use.lookup)
+        .measuring(quantity);
 }
 
 std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& path) {

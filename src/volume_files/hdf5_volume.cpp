@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/input_file.h"
 #include "volume_files/stored_data.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 namespace {
@@ -74,7 +75,7 @@ void for_all_fields(Fields& fields, Head& head) {
     auto& contents = head.contents;
     all(grid.size, grid.centering, grid.origin, grid.step, grid.axes, grid.unit);
     all(head.place.axes, head.place.index, head.shape, head.type, head.scale, head.offset);
-    all(head.chunk, head.raw, head.files);
+    all(head.chunk, head.raw, head.files, head.quantity.name, head.quantity.unit);
     all(contents.arrays, contents.channels, contents.times, contents.levels, contents.is_colour);
 }
 
@@ -116,6 +117,8 @@ Hdf5Volume::Hdf5Volume(const std::string& file, const std::string& array,
     for (const std::string& path : head_.files) file_bytes += std::filesystem::file_size(path);
     array_.expect_readable(stored_bytes(array_.name(), axes, bytes_of(array_.type())), file_bytes);
     head_.contents = contents_;
+    head_.quantity = {layout_.array.substr(layout_.array.rfind('/') + 1),
+                      unit_word(text_of(id, "units"))};
 }
 
 // Places the volume in the array and in the world.

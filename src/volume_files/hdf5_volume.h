@@ -26,6 +26,7 @@ struct Hdf5Head {
     Hdf5Array::RawPlace raw{-1, false};
     std::vector<std::string> files;  // the file itself, and those that the samples are in
     VolumeContents contents;
+    Quantity quantity;
 
     // Return the head as bytes, by which an isolated process sends it, and the head of them.
     std::string bytes() const;

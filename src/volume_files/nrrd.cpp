@@ -476,6 +476,7 @@ struct NrrdHeader {
     bool is_colour = false;
     double first_time = 0, time_step = NAN;  // of the axis of times; NaN: not known
     std::string time_unit;
+    std::string sample_unit;
     bool is_segmentation = false;
     std::vector<Label> labels;  // of a segmentation
 };
@@ -576,6 +577,7 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeReque
         header.time_step = known_spacing_of(axis);
         header.time_unit = axis.units == nullptr ? "" : unit_word(axis.units);
     }
+    if (nrrd->sampleUnits != nullptr) header.sample_unit = unit_word(nrrd->sampleUnits);
     header.labels = segments_of(name, text.segment_keys, request);
     header.is_segmentation = text.segment_keys.contains("Segment0_ID");
     if (!std::isnan(nrrd->oldMin) || !std::isnan(nrrd->oldMax)) {
@@ -603,7 +605,7 @@ Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request
     Volume volume = open_stored(header.grid, header.data, use);
     if (!header.labels.empty()) volume = with_descriptions(volume, std::move(header.labels));
     if (use.contents != nullptr) fill_nrrd_contents(header, *use.contents);
-    return volume;
+    return volume.measuring({"", header.sample_unit});
 }
 
 std::vector<std::filesystem::path> files_of_nrrd(const std::filesystem::path& path) {

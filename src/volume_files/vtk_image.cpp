@@ -124,7 +124,7 @@ class VtkImage {
                  found_.size());
         }
         if (!head_.geometry) grid_ = grid();
-        return without_hidden(drawn_volume(grid_, all_, use_.lookup));
+        return without_hidden(drawn_volume(grid_, all_, use_.lookup)).measuring({array_.name, ""});
     }
 
   private:

@@ -85,6 +85,33 @@ TEST(FittedCamera, TwoOppositeEdgesTouchTheMargin) {
     }
 }
 
+// Columns from 0 to the width are places from -1 to 1 in the picture, and rows likewise.
+TEST(FittedCamera, LeavesMarginsFree) {
+    const PictureMargins margins{
+        .left = 0.05 * width, .right = 0.3 * width, .top = 0.1 * height, .bottom = 0.2 * height};
+    for (unsigned seed = 0; seed < 50; ++seed) {
+        const auto points =
+            cloud(seed, {1, seed % 7 == 0 ? 40 : 2, seed % 5 == 0 ? .01 : 3}, {1000, -200, 0});
+        const ViewTurn turn{37. * seed, 11. * seed};
+        const Camera camera =
+            fitted_camera(points, WorldAxes::unnamed, turn, width, height, false, margins);
+        const Reach reach(points, camera);
+        constexpr double inner = 1 - 1. / 25;
+        // The free part reaches from -.9 to .4, and from -.6 to .8.
+        const double left = -0.25 - 0.65 * inner, right = -0.25 + 0.65 * inner;
+        const double down = 0.1 - 0.7 * inner, up = 0.1 + 0.7 * inner;
+        EXPECT_GE(reach.left, left - rounding);
+        EXPECT_LE(reach.right, right + rounding);
+        EXPECT_GE(reach.down, down - rounding);
+        EXPECT_LE(reach.up, up + rounding);
+        const bool sides =
+            std::abs(reach.left - left) < rounding && std::abs(reach.right - right) < rounding;
+        const bool ends =
+            std::abs(reach.down - down) < rounding && std::abs(reach.up - up) < rounding;
+        EXPECT_TRUE(sides || ends) << seed;
+    }
+}
+
 // A camera turned by any angle about its up has all points in its picture, and at one of 720 angles
 // two opposite edges are almost touched. A point is farthest out at an angle at most 1/4 degree
 // from one of these, where it is nearer to the middle by at most 1 - cos(1/4 degree) = 1e-5 of its

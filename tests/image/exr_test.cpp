@@ -210,5 +210,36 @@ TEST(Exr, FullDiskIsAnErrorAndLeavesNothing) {
     EXPECT_TRUE(folder.empty());
 }
 
+// Annotations are a layer of their own: the picture's channels are those without it, bit for bit.
+TEST(Exr, HasAnnotationsInALayerThatReadersOfThePictureIgnore) {
+    const TemporaryFolder folder;
+    Image image = random_image(37, 19);
+    write(folder / "plain.exr", image);
+    auto layer = std::make_shared<Image>(37, 19);
+    layer->pixel(3, 5)[1] = 0.25f;
+    layer->pixel(3, 5)[3] = 0.5f;
+    image.annotations = layer;
+    write(folder / "annotated.exr", image);
+    const Image back = read_exr(folder / "annotated.exr");
+    EXPECT_EQ(std::memcmp(back.rgba.data(), image.rgba.data(), image.rgba.size() * sizeof(float)),
+              0);
+    EXPECT_EQ(back.annotations, nullptr);
+
+    Imf::InputFile file((folder / "annotated.exr").c_str());
+    std::string names;
+    for (auto it = file.header().channels().begin(); it != file.header().channels().end(); ++it)
+        names += std::string(it.name()) + " ";
+    EXPECT_EQ(names, "A B G R annotation.A annotation.B annotation.G annotation.R ");
+    std::vector<float> green(37 * 19);
+    Imf::FrameBuffer buffer;
+    buffer.insert("annotation.G",
+                  Imf::Slice::Make(Imf::FLOAT, green.data(), file.header().dataWindow()));
+    file.setFrameBuffer(buffer);
+    file.readPixels(0, 18);
+    EXPECT_EQ(green[5 * 37 + 3], 0.25f);
+    Imf::InputFile plain((folder / "plain.exr").c_str());
+    EXPECT_EQ(plain.header().channels().findChannel("annotation.R"), nullptr);
+}
+
 }  // namespace
 }  // namespace lamina

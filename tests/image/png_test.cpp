@@ -318,5 +318,24 @@ TEST(Png, FullDiskIsAnErrorAndLeavesNothing) {
     EXPECT_TRUE(folder.empty());
 }
 
+TEST(Png, ShowsAnnotationsOverThePictureAndBackground) {
+    Image image(3, 1);
+    image.pixel(1, 0)[0] = 0.25f;
+    image.pixel(1, 0)[3] = 0.5f;
+    const glm::dvec3 background(0, 0, 1);
+    const std::vector<std::uint8_t> plain = png_codes(image, background, ImageColorSpace::display);
+    auto layer = std::make_shared<Image>(3, 1);
+    for (const int column : {1, 2}) {
+        layer->pixel(column, 0)[1] = column == 1 ? 0.5f : 1;
+        layer->pixel(column, 0)[3] = column == 1 ? 0.5f : 1;
+    }
+    image.annotations = layer;
+    const std::vector<std::uint8_t> shown = png_codes(image, background, ImageColorSpace::display);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(shown[c], plain[c]);
+    // Half of (.25, 0, .5), and half of green: .125, .5, .25 of 255.
+    EXPECT_EQ(std::vector<int>(shown.begin() + 3, shown.end()),
+              (std::vector<int>{32, 128, 64, 0, 255, 0}));
+}
+
 }  // namespace
 }  // namespace lamina

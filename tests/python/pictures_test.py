@@ -120,6 +120,25 @@ def test_a_notebook_shows_it_over_the_background(blob, function):
     assert np.abs(png_codes(picture._repr_png_()) - 255 * srgb).max() <= 0.501
 
 
+def test_annotations_are_beside_the_picture(blob, function, tmp_path):
+    view = {"size": (120, 90), "camera": lamina.Camera.orbit(blob, azimuth=30), "context": "cpu"}
+    plain = lamina.render(blob, function, **view)
+    picture = lamina.render(blob, function, annotations={"colorbar": True, "title": "Größe"}, **view)
+    assert plain.annotations is None and np.array_equal(plain.array, picture.array)
+    layer = picture.annotations
+    assert layer.shape == (90, 120, 4) and layer.dtype == np.float32 and not layer.flags.writeable
+    changed = (png_codes(picture._repr_png_()) != png_codes(plain._repr_png_())).any(axis=2)
+    assert changed.any() and not changed[layer[:, :, 3] == 0].any()
+    picture.save(tmp_path / "a.exr")
+    assert picture.compare(tmp_path / "a.exr").linf == 0
+    picture.save(tmp_path / "a.png")
+    plain.save(tmp_path / "b.png")
+    assert lamina.compare(tmp_path / "a.png", tmp_path / "b.png").linf > 0
+    assert lamina.trace(blob, function, annotations={"axes": True}, size=(16, 12)).annotations is not None
+    with pytest.raises(lamina.Error, match="image.annotations.colorbar: found 3"):
+        lamina.render(blob, function, annotations={"colorbar": 3}, **view)
+
+
 def test_traced_pictures_are_double(blob, function, tmp_path):
     truth = lamina.trace(blob, function, size=(16, 12))
     assert truth.array.dtype == np.float64 and 0 <= truth.error < 1e-5 * 255

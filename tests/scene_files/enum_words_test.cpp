@@ -69,6 +69,8 @@ TEST(EnumWords, AreThoseOfSceneFilesInTheOrderOfMessages) {
     EXPECT_EQ(words_of<TraceOf>(), "volume mesh");
     EXPECT_EQ(words_of<NanPolicy>(), "error transparent");
     EXPECT_EQ(words_of<ImageColorSpace>(), "linear display");
+    EXPECT_EQ(words_of<AnnotationPosition>(),
+              "top_left top top_right left right bottom_left bottom bottom_right");
     EXPECT_EQ(words_of<Projection>(), "perspective orthographic");
     EXPECT_EQ(words_of<Classification>(), "post preintegrated exact");
     EXPECT_EQ(words_of<Order>(), "back_to_front front_to_back");
@@ -115,6 +117,7 @@ TEST(EnumWords, AreThoseOfTheSchema) {
                                      words_of<TraceOf>(),
                                      words_of<NanPolicy>(),
                                      words_of<Projection>(),
+                                     "auto " + words_of<AnnotationPosition>(),
                                      "auto " + words_of<Classification>(),
                                      words_of<Order>(),
                                      words_of<Filter>() + " auto",

@@ -14,6 +14,7 @@
 #include <sstream>
 #include <utility>
 
+#include "annotation/font.h"
 #include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
@@ -266,6 +267,13 @@ void add_view_options(CLI::App& verb, ViewOptions& options) {
     verb.add_flag("--transparent", options.transparent,
                   "No background: PNG files and films with straight alpha (image.transparent)")
         ->group(look);
+    verb.add_flag("--legend", options.legend,
+                  "Draw a colour bar with the opacities beside the picture; of labels, a legend")
+        ->group(look);
+    verb.add_flag("--scale-bar", options.scale_bar, "Draw a length beside the picture")
+        ->group(look);
+    verb.add_flag("--axes", options.axes, "Draw arrows along the world's axes")->group(look);
+    add_word(verb, "--title", options.title, "TEXT", "Write this above the picture");
 }
 
 Adjustments adjustments_of(const ViewOptions& options, ImageColorSpace space) {
@@ -295,6 +303,22 @@ std::vector<std::string> settings_of(const ViewOptions& options) {
     }
     if (!options.background.empty()) settings.push_back("image.background=" + options.background);
     if (options.transparent) settings.emplace_back("image.transparent=true");
+    const auto add = [&](const char* key, const std::string& value) {
+        settings.push_back(fmt::format("image.annotations.{}={}", key, value));
+    };
+    if (options.legend) {
+        add("colorbar", "true");
+        add("labels", "true");
+    }
+    if (options.scale_bar) add("scale_bar", "true");
+    if (options.axes) add("axes", "true");
+    if (options.title.empty()) return settings;
+    try {
+        check_text("--title", options.title);
+    } catch (const Error& error) {
+        throw UsageError(error.what());
+    }
+    add("title", json_text(nlohmann::json(options.title)));
     return settings;
 }
 

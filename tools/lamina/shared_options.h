@@ -61,6 +61,8 @@ struct ViewOptions {
     Words words;
     std::string size, background;
     bool transparent = false;
+    bool legend = false, scale_bar = false, axes = false;
+    std::string title;
 };
 
 void add_view_options(CLI::App& verb, ViewOptions& options);

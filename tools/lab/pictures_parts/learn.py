@@ -76,6 +76,12 @@ def start(lamina, images):
         sheet([(folder / "bluntfin.png", "the air around a blunt fin")], images / "start-fin.png", columns=1)
 
 
+def annotations(lamina, images):
+    with tempfile.TemporaryDirectory() as name:
+        run_page("annotations.md", lamina, pathlib.Path(name))
+        (images / "annotations.png").write_bytes((pathlib.Path(name) / "blobs.png").read_bytes())
+
+
 def transfer_function(lamina, images):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -207,10 +213,11 @@ def vtk(lamina, images):
 
 
 def draw(lamina, folder):
-    """Makes every picture of docs/start and docs/learn."""
+    """Makes every picture of docs/start, docs/learn and docs/annotations.md."""
     images = pathlib.Path(folder)
     lamina = str(pathlib.Path(lamina).resolve())
     start(lamina, images)
+    annotations(lamina, images)
     transfer_function(lamina, images)
     precision(lamina, images)
     meshes(lamina, images)

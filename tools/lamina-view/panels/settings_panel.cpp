@@ -425,18 +425,28 @@ void SettingsPanel::draw_list(const SettingNode& node, const std::string& path,
     }
 }
 
-// Draws the choice between a file (the value is a text) and generated data (an object). Typing a
-// name makes the value a file.
+// Draws the choice between a short form (a file's name, a text, a flag) and an object with keys of
+// its own. Typing a text makes the value one.
 void SettingsPanel::draw_either(const SettingNode& node, const std::string& path,
                                 PanelContext& context) {
     const Json value = value_at(path);
     draw_label(node, {});
     ImGui::SetNextItemWidth(-1);
-    const char* const made = node.path == "volume" ? "generated" : "made from the volume";
-    const char* const now = value.is_string() ? "file" : value.is_object() ? made : "none";
+    const bool annotates = node.path.starts_with("image.annotations.");
+    const char* const made = annotates               ? "with settings"
+                             : node.path == "volume" ? "generated"
+                                                     : "made from the volume";
+    const char* const typed = annotates ? "text" : "file";
+    const bool is_flag = std::ranges::any_of(
+        node.parts, [](const SettingNode& part) { return part.kind == SettingKind::flag; });
+    const char* const now = value.is_string()   ? typed
+                            : value.is_object() ? made
+                            : value == true     ? "shown"
+                                                : "none";
     if (ImGui::BeginCombo("##either", now)) {
         if (may_be_absent(node) && ImGui::Selectable("none", value.is_null()))
             set(path, nullptr, context);
+        if (is_flag && ImGui::Selectable("shown", value == true)) set(path, true, context);
         if (ImGui::Selectable(made, value.is_object()) && !value.is_object())
             set(path, starting_value(node, path, context.document.scene(), nullptr, {}), context);
         ImGui::EndCombo();
@@ -445,10 +455,10 @@ void SettingsPanel::draw_either(const SettingNode& node, const std::string& path
     for (const SettingNode& part : node.parts) {
         if (part.kind == SettingKind::text) {
             ImGui::AlignTextToFramePadding();
-            ImGui::TextUnformatted("file");
+            ImGui::TextUnformatted(typed);
             ImGui::SameLine(em(label_width));
             if (const auto answer = setting_control(part, value, {})) set(path, *answer, context);
-        } else if (value.is_object() || all_open) {
+        } else if (part.kind != SettingKind::flag && (value.is_object() || all_open)) {
             ImGui::BeginDisabled(!value.is_object());
             draw_parts(part, path, context);
             ImGui::EndDisabled();

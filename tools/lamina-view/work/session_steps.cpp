@@ -62,9 +62,22 @@ TracedPicture::TracedPicture(std::shared_ptr<const Image> full,
                        static_cast<std::size_t>(scene.height));
 }
 
+namespace {
+
+std::shared_ptr<const Image> part_of(const Image& picture, const PictureTile& tile) {
+    auto part = std::make_shared<Image>(tile.width, tile.height);
+    for (int row = 0; row < tile.height; ++row)
+        std::copy_n(picture.pixel(tile.column, tile.row + row), 4 * tile.width,
+                    part->pixel(0, row));
+    return part;
+}
+
+}  // namespace
+
 void TracedPicture::add(const PictureTile& tile, const PreciseImage& truth) {
     Image traced(tile.width, tile.height);
     traced.space = space_;
+    if (full_ && full_->annotations) traced.annotations = part_of(*full_->annotations, tile);
     for (int row = 0; row < tile.height; ++row) {
         const double* const from = truth.pixel(tile.column, tile.row + row);
         std::transform(from, from + 4 * tile.width, traced.pixel(0, row),
@@ -447,6 +460,7 @@ void SessionSteps::take_truth(const PreciseImage& truth) {
     shown_.truth = std::make_shared<const PreciseImage>(truth);
     shown_.trace_error = session_->trace_statistics().trace_error;
     const Image as_float = to_float(truth);
+    if (truth.annotations) shown_.screen = screen_of(as_float, session_->scene());
     if (shown_.full) {
         shown_.error = error_of(*shown_.full, as_float);
     } else {  // the scene itself asks for the traced picture

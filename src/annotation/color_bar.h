@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "annotation/annotation_layer.h"
+
+namespace lamina {
+
+// The part of a transfer function that a colour bar shows.
+struct BarRange {
+    double lo = 0, hi = 0;  // values; equal if there is a single one
+};
+
+// Returns the range of the data's values that show: the least to the largest with extinction above
+// 0, or all if none shows.
+BarRange bar_range(const TransferFunction& transfer_function, const ValueRange& data);
+
+// Returns the value in the middle of a row of pixels of a bar of `rows` rows; row 0 is the topmost.
+double value_at(const BarRange& range, int row, int rows);
+
+struct ColorBar {
+    Block block;
+    Rectangle colors;  // where the function's colours are, from the block's upper left corner
+    BarRange range;
+};
+
+// Makes a block: the caption, the function's colours over the values that show, its opacity beside
+// them, and numbers. `wanted`: scene.annotations.colorbar.
+ColorBar color_bar(Pen& pen, const Annotation& wanted, const Scene& scene,
+                   const AnnotatedData& data);
+
+// Makes a block of a swatch and a name for each label that shows (label_legend.cpp). Warns if there
+// is no room for all of them.
+Block label_legend(Pen& pen, const Annotation& wanted, const Scene& scene,
+                   const AnnotatedData& data);
+
+// Shortens a text with an ellipsis until it is at most `most` pixels wide.
+std::string fitted_text(Pen& pen, const std::string& text, double size, double most);
+
+}  // namespace lamina

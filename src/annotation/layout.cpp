@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "annotation/layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/enum_words.h"
+#include "image/coded_image.h"
+
+namespace lamina {
+namespace {
+
+// Share of the picture's height that the em of normal text takes, and its least size in pixels: at
+// less, figures cannot be read.
+constexpr double em_share = 1.0 / 38, least_em = 9;
+// Display values of ink on light and on dark paper.
+constexpr double dark = 0.1, light = 0.95;
+// Relative luminance (Rec. 709, linear light) from which on paper counts as light: then dark ink
+// has the greater contrast, (Y + .05) / .05 > 1.05 / (Y + .05), by WCAG 2.
+constexpr double light_luminance = 0.179;
+constexpr double line_distance = 1.35;  // of base lines, in ems
+constexpr double ascent = 0.95;         // from a line's top to its base line, in ems
+
+enum class Side { low, middle, high };
+
+Side across(AnnotationPosition position) {
+    switch (position) {
+        case AnnotationPosition::top_left:
+        case AnnotationPosition::left:
+        case AnnotationPosition::bottom_left:
+            return Side::low;
+        case AnnotationPosition::top:
+        case AnnotationPosition::bottom:
+            return Side::middle;
+        case AnnotationPosition::top_right:
+        case AnnotationPosition::right:
+        case AnnotationPosition::bottom_right:
+            return Side::high;
+    }
+    return Side::low;
+}
+
+Side down(AnnotationPosition position) {
+    switch (position) {
+        case AnnotationPosition::top_left:
+        case AnnotationPosition::top:
+        case AnnotationPosition::top_right:
+            return Side::low;
+        case AnnotationPosition::left:
+        case AnnotationPosition::right:
+            return Side::middle;
+        case AnnotationPosition::bottom_left:
+        case AnnotationPosition::bottom:
+        case AnnotationPosition::bottom_right:
+            return Side::high;
+    }
+    return Side::low;
+}
+
+double start_of(Side side, double size, double whole, double gap) {
+    if (side == Side::middle) return std::round((whole - size) / 2);
+    return side == Side::low ? gap : whole - gap - size;
+}
+
+}  // namespace
+
+const char* name_of(AnnotationPosition position) {
+    return word_of(position, {"top_left", "top", "top_right", "left", "right", "bottom_left",
+                              "bottom", "bottom_right"});
+}
+
+AnnotationStyle::AnnotationStyle(const Scene& scene)
+    : width(scene.width), height(scene.height), space(scene.color_space), paper(scene.background) {
+    glm::dvec3 shown = glm::clamp(paper, 0.0, 1.0);
+    if (space == ImageColorSpace::display) {
+        for (int c = 0; c < 3; ++c) shown[c] = linear_from_srgb(shown[c]);
+    }
+    dark_ink = 0.2126 * shown.r + 0.7152 * shown.g + 0.0722 * shown.b > light_luminance;
+    ink = shade(glm::dvec3(dark_ink ? dark : light));
+    em = std::max(least_em, em_share * height);
+    gap = 0.8 * em;
+}
+
+glm::dvec3 AnnotationStyle::shade(const glm::dvec3& display) const {
+    if (space == ImageColorSpace::display) return display;
+    return {linear_from_srgb(display.r), linear_from_srgb(display.g), linear_from_srgb(display.b)};
+}
+
+Paint AnnotationStyle::text_paint(double opacity) const {
+    return {ink, opacity, dark_ink ? Paint::Edges::of_dark_text : Paint::Edges::of_light_text};
+}
+
+void Pen::text(std::string_view line, const glm::dvec2& anchor, double size, Align align) {
+    const double moved = align == Align::left ? 0 : width(line, size);
+    const double left = anchor.x - (align == Align::center ? moved / 2 : moved);
+    const glm::dvec2 start(left, std::round(anchor.y));
+    canvas_->fill(font.outlines(line, start, size), style.text_paint());
+}
+
+void Pen::text_beside(std::string_view line, const glm::dvec2& anchor, double size, Align align) {
+    text(line, {anchor.x, anchor.y + Font::capital_height(size) / 2}, size, align);
+}
+
+std::vector<Rectangle> placed(const std::vector<Block>& blocks, const AnnotationStyle& style) {
+    std::vector<Rectangle> places(blocks.size());
+    for (std::size_t first = 0; first < blocks.size(); ++first) {
+        const AnnotationPosition position = blocks[first].position;
+        std::vector<std::size_t> group;
+        for (std::size_t i = 0; i < blocks.size(); ++i)
+            if (blocks[i].position == position) group.push_back(i);
+        if (group.front() != first) continue;  // placed already
+        double whole = -style.gap;
+        for (const std::size_t i : group) whole += blocks[i].size.y + style.gap;
+        double top = start_of(down(position), whole, style.height, style.gap);
+        for (const std::size_t i : group) {
+            const glm::dvec2& size = blocks[i].size;
+            places[i] = {start_of(across(position), size.x, style.width, style.gap), top, size.x,
+                         size.y};
+            top += size.y + style.gap;
+        }
+    }
+    return places;
+}
+
+PictureMargins margins_of(const std::vector<Block>& blocks, const AnnotationStyle& style) {
+    PictureMargins margins;
+    const std::vector<Rectangle> places = placed(blocks, style);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        if (!blocks[i].makes_room) continue;
+        const Rectangle& place = places[i];
+        const Side x = across(blocks[i].position), y = down(blocks[i].position);
+        // Blocks beside the picture's middle take a margin at the side, all others one above or
+        // below.
+        if (y == Side::middle && x == Side::low)
+            margins.left = std::max(margins.left, place.right() + style.gap / 2);
+        else if (y == Side::middle)
+            margins.right = std::max(margins.right, style.width - place.left + style.gap / 2);
+        else if (y == Side::low)
+            margins.top = std::max(margins.top, place.bottom());
+        else
+            margins.bottom = std::max(margins.bottom, style.height - place.top);
+    }
+    return margins;
+}
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+    std::vector<std::string_view> lines;
+    for (std::size_t end = text.find('\n'); end != text.npos; end = text.find('\n')) {
+        lines.push_back(text.substr(0, end));
+        text.remove_prefix(end + 1);
+    }
+    lines.push_back(text);
+    return lines;
+}
+
+Block text_block(Pen& pen, const Annotation& annotation, double size, const std::string& key,
+                 AnnotationPosition position) {
+    Block block{key, annotation.position.value_or(position), {}, true, {}};
+    const std::vector<std::string_view> lines = lines_of(annotation.text);
+    for (const std::string_view line : lines)
+        block.size.x = std::max(block.size.x, pen.width(line, size));
+    block.size.y = size * (line_distance * static_cast<double>(lines.size() - 1) + 1.2);
+    block.draw = [lines, size, width = block.size.x, side = across(block.position)](
+                     Pen& drawing, const glm::dvec2& at) {
+        const Align align = side == Side::low      ? Align::left
+                            : side == Side::middle ? Align::center
+                                                   : Align::right;
+        const double x = align == Align::left ? 0 : align == Align::center ? width / 2 : width;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            drawing.text(lines[i], at + glm::dvec2(x, size * (ascent + line_distance * double(i))),
+                         size, align);
+        }
+    };
+    return block;
+}
+
+}  // namespace lamina

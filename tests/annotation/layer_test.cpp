@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "annotation/annotation_layer.h"
+#include "image/coded_image.h"
+#include "mesh/predicates.h"
+#include "support/expect_error.h"
+#include "support/heard_warnings.h"
+
+namespace lamina {
+namespace {
+
+Scene plain_scene() {
+    Scene scene;
+    scene.transfer_function =
+        TransferFunction::linear({{0, {glm::dvec3(0.2), 0}}, {1, {glm::dvec3(0.9, 0.5, 0.1), 2}}});
+    scene.width = 300;
+    scene.height = 200;
+    return scene;
+}
+
+AnnotatedData plain_data() {
+    AnnotatedData data;
+    data.corners = box_corners(glm::dvec3(-0.2), glm::dvec3(0.2));
+    data.range = {0, 1};
+    return data;
+}
+
+Annotation titled(const std::string& text) {
+    Annotation title;
+    title.text = text;
+    return title;
+}
+
+TEST(AnnotationLayer, IsThereOnlyIfSomethingIsWanted) {
+    const Image picture(300, 200);
+    EXPECT_EQ(annotation_layer(plain_scene(), plain_data(), picture), nullptr);
+    Scene scene = plain_scene();
+    scene.annotations.title = titled("A title");
+    const auto layer = annotation_layer(scene, plain_data(), picture);
+    ASSERT_NE(layer, nullptr);
+    EXPECT_EQ(layer->width, 300);
+    EXPECT_EQ(layer->height, 200);
+}
+
+// The contrast ratio of WCAG 2 between ink and background; it asks for 3 of large text.
+TEST(AnnotationLayer, InkIsReadableOnEveryBackground) {
+    for (int red = 0; red <= 255; red += 51) {
+        for (int green = 0; green <= 255; green += 51) {
+            for (int blue = 0; blue <= 255; blue += 51) {
+                Scene scene = plain_scene();
+                scene.background = {linear_from_srgb(red / 255.0), linear_from_srgb(green / 255.0),
+                                    linear_from_srgb(blue / 255.0)};
+                const AnnotationStyle style(scene);
+                const auto luminance = [](const glm::dvec3& c) {
+                    return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b + 0.05;
+                };
+                const double a = luminance(style.ink), b = luminance(scene.background);
+                EXPECT_GE(std::max(a, b) / std::min(a, b), 3.7) << red << green << blue;
+                scene.color_space = ImageColorSpace::display;
+                scene.background = glm::dvec3(red, green, blue) / 255.0;
+                EXPECT_EQ(AnnotationStyle(scene).dark_ink, style.dark_ink);
+            }
+        }
+    }
+}
+
+TEST(AnnotationLayer, APlateLiesUnderTextOnlyOverWhatThePictureShows) {
+    Scene scene = plain_scene();
+    scene.annotations.title = titled(".");
+    const auto plated = [&](const Image& picture) {
+        const auto layer = annotation_layer(scene, plain_data(), picture);
+        int covered = 0;
+        for (std::size_t i = 3; i < layer->rgba.size(); i += 4) covered += layer->rgba[i] > 0;
+        return covered;
+    };
+    Image picture(300, 200);
+    const int text_alone = plated(picture);
+    EXPECT_LT(text_alone, 30);
+    picture.pixel(150, 190)[3] = 1;  // far from the title
+    EXPECT_EQ(plated(picture), text_alone);
+    picture.pixel(150, 10)[3] = 0.5;
+    EXPECT_GT(plated(picture), 60);
+}
+
+TEST(AnnotationLayer, ColorBarOrLegendIsWhatFitsTheData) {
+    Scene scene = plain_scene();
+    scene.annotations.colorbar = scene.annotations.labels = Annotation{};
+    AnnotatedData data = plain_data();
+    const Image picture(300, 200);
+    const auto bar = annotation_layer(scene, data, picture);
+    data.are_labels = true;
+    data.labels = {{0, "0"}, {1, "1", "Femur"}};
+    const auto legend = annotation_layer(scene, data, picture);
+    EXPECT_NE(bar->rgba, legend->rgba);
+    scene.annotations.labels.reset();
+    EXPECT_EQ(annotation_layer(scene, data, picture)->rgba, bar->rgba);
+    scene.annotations.labels = Annotation{};
+    scene.annotations.colorbar.reset();
+    EXPECT_EQ(annotation_layer(scene, data, picture)->rgba, legend->rgba);
+}
+
+TEST(AnnotationLayer, LegendHasTheColorsOfTheLabelsThatShow) {
+    Scene scene = plain_scene();
+    scene.transfer_function = TransferFunction::nearest(
+        {{0, {{0, 0, 0}, 0}}, {1, {{1, 0, 0}, 1}}, {2, {{0, 0.5, 0}, 1}}, {3, {{0, 0, 1}, 0}}});
+    scene.annotations.labels = Annotation{};
+    AnnotatedData data = plain_data();
+    data.are_labels = true;
+    for (const int code : {0, 1, 2, 3}) data.labels.push_back({double(code), "1"});
+    const auto layer = annotation_layer(scene, data, Image(300, 200));
+    const auto count = [&](const glm::vec3& color) {
+        int pixels = 0;
+        for (std::size_t i = 0; i < layer->rgba.size(); i += 4) {
+            pixels += layer->rgba[i] == color.r && layer->rgba[i + 1] == color.g &&
+                      layer->rgba[i + 2] == color.b && layer->rgba[i + 3] == 1;
+        }
+        return pixels;
+    };
+    EXPECT_GT(count({1, 0, 0}), 40);
+    EXPECT_EQ(count({1, 0, 0}), count({0, 0.5, 0}));
+    EXPECT_EQ(count({0, 0, 1}), 0);
+}
+
+TEST(AnnotationLayer, SaysWhatItCannotShow) {
+    const auto said = [](const Scene& scene, const AnnotatedData& data) {
+        const test::HeardWarnings heard;
+        annotation_layer(scene, data, Image(300, 200));
+        return heard.all();
+    };
+    Scene scene = plain_scene();
+    scene.annotations.title = titled("Schädel \u6f22");
+    EXPECT_NE(said(scene, plain_data()).find("U+6F22"), std::string::npos);
+    scene.annotations.title = titled("Schädel");
+    EXPECT_EQ(said(scene, plain_data()), "");
+    scene.annotations.title = titled("Schädel, von vorn und von oben");
+    scene.annotations.title->size = 4;
+    EXPECT_NE(said(scene, plain_data()).find("image.annotations.title"), std::string::npos);
+    scene = plain_scene();
+    scene.annotations.labels = Annotation{};
+    EXPECT_NE(said(scene, plain_data()).find("no labels"), std::string::npos);
+    AnnotatedData many = plain_data();
+    many.are_labels = true;
+    for (int i = 0; i < 100; ++i) many.labels.push_back({1, "1"});
+    EXPECT_NE(said(scene, many).find("of 100 labels"), std::string::npos);
+}
+
+TEST(AnnotationLayer, RefusesTextsAndFormatsThatAreNone) {
+    Scene scene = plain_scene();
+    scene.annotations.texts = {titled("good"), titled("b\xff")};
+    const auto draw = [&] { annotation_layer(scene, plain_data(), Image(300, 200)); };
+    expect_error(draw, {"image.annotations.texts.1.text", "UTF-8"});
+    scene.annotations = {};
+    scene.annotations.colorbar = Annotation{};
+    scene.annotations.colorbar->format = "{:d}";
+    expect_error(draw, {"image.annotations.colorbar.format", "{:d}"});
+    scene.annotations.colorbar->format.clear();
+    scene.annotations.colorbar->size = 9;
+    expect_error(draw, {"image.annotations.colorbar.size", "9", "4"});
+}
+
+TEST(AnnotationMargins, AreOnTheSidesOfTheAnnotations) {
+    Scene scene = plain_scene();
+    EXPECT_EQ(annotation_margins(scene, plain_data()).right, 0);
+    scene.annotations.colorbar = Annotation{};
+    const PictureMargins margins = annotation_margins(scene, plain_data());
+    EXPECT_GT(margins.right, 40);
+    EXPECT_LT(margins.right, 130);
+    EXPECT_EQ(margins.left, 0);
+    EXPECT_EQ(margins.top, 0);
+    scene.annotations.colorbar->position = AnnotationPosition::left;
+    EXPECT_DOUBLE_EQ(annotation_margins(scene, plain_data()).left, margins.right);
+    scene.annotations.colorbar.reset();
+    scene.annotations.title = titled("x");
+    EXPECT_GT(annotation_margins(scene, plain_data()).top, 10);
+    // The data keep two fifths of a picture that is too small for what is wanted.
+    scene.annotations.colorbar = scene.annotations.scale_bar = scene.annotations.box = Annotation{};
+    scene.width = scene.height = 16;
+    const PictureMargins small = annotation_margins(scene, plain_data());
+    EXPECT_NEAR(small.left + small.right, 0.6 * 16, 1e-12);
+    EXPECT_NEAR(small.top + small.bottom, 0.6 * 16, 1e-12);
+}
+
+}  // namespace
+}  // namespace lamina
