@@ -73,7 +73,7 @@ double within_nucleus(const Cell& cell, const dvec3& p) {
 // Returns the light of a dividing cell: two plates of chromosomes that part along the axis.
 double divided(const Cell& cell, const dvec3& p, double grain) {
     const dvec3 from = p - cell.center;
-    const double along = std::abs(glm::dot(from, cell.axis)) - 1.5;
+    const double along = std::abs(glm::dot(from, cell.axis)) - 2.1;
     const double across2 =
         std::max(0.0, glm::dot(from, from) - glm::dot(from, cell.axis) * glm::dot(from, cell.axis));
     const double plate = std::sqrt(across2 / 7.3 + along * along / 0.5);
@@ -111,7 +111,7 @@ class Cells {
     }
 
   private:
-    static constexpr std::size_t dividing = 23;
+    static constexpr std::size_t dividing = 20;  // near the middle of the top
 
     std::vector<Cell> cells_ = cells_in_ball();
 };
