@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "volume/gradient_noise.h"
 #include "volume/nrrd_writer.h"
 #include "volume/sample_source.h"
 
@@ -47,11 +48,6 @@ double portable_cos_turns(double turns) {
 
 namespace {
 
-// The smooth step 6 t^5 - 15 t^4 + 10 t^3, for t in 0..1.
-double fade(double t) {
-    return t * t * t * (t * (t * 6 - 15) + 10);
-}
-
 using GridSize = std::array<std::int64_t, 3>;
 
 // A field on a grid, computed row by row.
@@ -67,113 +63,6 @@ class Generator {
 double unit_position(std::int64_t i, std::int64_t n) {
     return n == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(n - 1);
 }
-
-// splitmix64's finaliser (Steele et al., "Fast splittable pseudorandom number generators", 2014).
-std::uint64_t mix(std::uint64_t bits) {
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
-    return bits ^ (bits >> 31);
-}
-
-// Maps 21 bits to -1..1.
-double component(std::uint64_t bits) {
-    return static_cast<double>(bits & 0x1fffff) * 0x1p-20 - 1;
-}
-
-// Returns a lattice coordinate in 21 bits, so noise repeats beyond 2^21 cells.
-std::uint64_t lattice_bits(std::int64_t coordinate) {
-    return static_cast<std::uint64_t>(coordinate) & 0x1fffff;
-}
-
-double blend(double a, double b, double weight) {
-    return a + weight * (b - a);
-}
-
-// The four lattice lines along x around (y, z).
-struct Lines {
-    std::uint64_t key[4];             // keys of their lattice points, without x
-    double offset_y[4], offset_z[4];  // distance of (y, z) from the line
-    double weight_y, weight_z;        // weights of the lines at larger y, at larger z
-
-    Lines(double y, double z) {
-        const double cell_y = std::floor(y);
-        const double cell_z = std::floor(z);
-        weight_y = fade(y - cell_y);
-        weight_z = fade(z - cell_z);
-        for (int line = 0; line < 4; ++line) {
-            const auto line_y = static_cast<std::int64_t>(cell_y) + (line & 1);
-            const auto line_z = static_cast<std::int64_t>(cell_z) + (line >> 1);
-            key[line] = lattice_bits(line_y) << 21 | lattice_bits(line_z) << 42;
-            offset_y[line] = y - static_cast<double>(line_y);
-            offset_z[line] = z - static_cast<double>(line_z);
-        }
-    }
-
-    double interpolate(const double* values) const {
-        return blend(blend(values[0], values[1], weight_y), blend(values[2], values[3], weight_y),
-                     weight_z);
-    }
-};
-
-// The noise contribution of lattice plane x along one row: value + slope * d at distance d from the
-// plane.
-struct Node {
-    double value;
-    double slope;
-};
-
-Node node(std::uint64_t seed, const Lines& lines, std::int64_t x) {
-    double values[4], slopes[4];
-    for (int line = 0; line < 4; ++line) {
-        const std::uint64_t bits =
-            mix((lines.key[line] | lattice_bits(x)) * 0x9e3779b97f4a7c15u + seed);
-        slopes[line] = component(bits);
-        values[line] = component(bits >> 21) * lines.offset_y[line] +
-                       component(bits >> 42) * lines.offset_z[line];
-    }
-    return {lines.interpolate(values), lines.interpolate(slopes)};
-}
-
-// Gradient noise (Perlin, "An image synthesizer", 1985) with the fade curve of "Improving noise",
-// 2002, and gradients from a hash of the lattice point. About -1..1, mean 0, 0 at lattice points.
-class GradientNoise {
-  public:
-    explicit GradientNoise(std::uint64_t seed) : seed_(seed) {}
-
-    double at(double x, double y, double z) const {
-        double value = 0;
-        add_row(x, 1, y, z, 1, 1, &value);
-        return value;
-    }
-
-    // values[i] += amplitude * at(first + i * step, y, z). Terms that depend only on y and z are
-    // computed once a lattice cell, so a sample costs one interpolation. `step` > 0.
-    void add_row(double first, double step, double y, double z, double amplitude, int count,
-                 double* values) const {
-        const Lines lines(y, z);
-        Node right{};
-        std::int64_t right_x = std::numeric_limits<std::int64_t>::min();
-        const auto position = [=](int i) { return first + static_cast<double>(i) * step; };
-        for (int begin = 0; begin < count;) {
-            const double cell = std::floor(position(begin));
-            int end = begin + 1;  // end of the samples in this cell
-            while (end < count && position(end) < cell + 1) ++end;
-            const auto left_x = static_cast<std::int64_t>(cell);
-            const Node left = left_x == right_x ? right : node(seed_, lines, left_x);
-            right_x = left_x + 1;
-            right = node(seed_, lines, right_x);
-            for (int i = begin; i < end; ++i) {
-                const double t = position(i) - cell;
-                values[i] += amplitude * blend(left.value + left.slope * t,
-                                               right.value + right.slope * (t - 1), fade(t));
-            }
-            begin = end;
-        }
-    }
-
-  private:
-    std::uint64_t seed_;
-};
 
 // The value x / (size of x - 1): 0, 1, ..., 255 in 256 samples of uint8.
 class Ramp final : public Generator {
@@ -371,10 +260,6 @@ constexpr double interface_frequency = 6;  // lattice cells a box, first octave
 constexpr double stirring_frequency = 6;   // lattice cells a box, first octave
 constexpr double persistence = 0.70;       // amplitude of an octave, divided by the one before
 constexpr double samples_per_finest_cell = 4;
-
-double smooth_step(double t) {
-    return fade(std::clamp(t, 0.0, 1.0));
-}
 
 // A field like a turbulent mixing layer after a Richtmyer-Meshkov instability: light fluid (0) at
 // small x, heavy fluid (1) at large x. Each row is made in three steps:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures of docs/start and docs/learn. The pages' own commands draw them: their ```sh blocks are run in an empty folder
-with the data linked into it, and what they wrote is put side by side. Needs LAMINA_DATA; the page about VTK also needs
-Debian's python3-vtk9, xvfb and xauth."""
+"""Pictures of docs/start and docs/learn. The pages' own commands draw them: their ```sh blocks are run in an empty folder,
+and what they wrote is put side by side. The page about VTK needs Debian's python3-vtk9, xvfb and xauth."""
 import csv
 import os
 import pathlib
@@ -14,14 +13,14 @@ INK, GREY, PALE, ORANGE, BLUE = "#1a1a1a", "#707070", "#d0d0d0", "#d55e00", "#00
 GAP = 8
 
 # Measurements of `lamina study` from when docs/learn/a-study.md was written: name, ms a frame, L2, on the front.
-STUDY = [("64", "post", 7.79, 2.18, True), ("256", "post", 16.1, .179, True), ("1024", "post", 42.4, .0113, False),
-         ("64", "post, 8 bits", 12.0, 2.56, False), ("256", "post, 8 bits", 17.4, 6.18, False),
-         ("1024", "post, 8 bits", 59.5, 18.7, False),
-         ("64", "pre", 17.2, .791, False), ("256", "pre", 51.5, .0515, False), ("1024", "pre", 152, .00412, False),
-         ("64", "pre, 8 bits", 16.0, 1.57, True), ("256", "pre, 8 bits", 64.6, 6.12, False),
-         ("1024", "pre, 8 bits", 156, 18.7, False), ("", "exact", 21.3, 1.81e-5, True)]
+STUDY = [("64", "post", 66.4, 2.95, True), ("256", "post", 95.8, .351, True), ("1024", "post", 210, .0235, False),
+         ("64", "post, 8 bits", 66.7, 3.00, False), ("256", "post, 8 bits", 99.8, 4.20, False),
+         ("1024", "post, 8 bits", 244, 14.2, False),
+         ("64", "pre", 102, .970, False), ("256", "pre", 154, .0494, False), ("1024", "pre", 415, .00231, False),
+         ("64", "pre, 8 bits", 97.7, 1.13, False), ("256", "pre, 8 bits", 174, 4.12, False),
+         ("1024", "pre, 8 bits", 477, 14.1, False), ("", "exact", 112, 1.83e-3, True)]
 
-LABELS = {("64", "post"): (-2, -12, "mb"), ("64", "post, 8 bits"): (0, -12, "mb"), ("64", "pre, 8 bits"): (14, -8, "lm"),
+LABELS = {("64", "post"): (-14, 8, "rm"), ("64", "post, 8 bits"): (14, -8, "lm"), ("64", "pre, 8 bits"): (-14, -8, "rm"),
           ("64", "pre"): (14, 10, "lm"), ("256", "post"): (-14, 0, "rm"), ("1024", "pre, 8 bits"): (0, 24, "mm")}
 
 
@@ -39,9 +38,6 @@ def environment(lamina):
 
 def run_page(page, lamina, folder, first=0, last=None):
     """Runs a page's ```sh blocks, all of them or those from `first` up to `last`, in `folder`."""
-    for path in pathlib.Path(os.environ["LAMINA_DATA"]).iterdir():
-        if path.is_file():
-            (folder / path.name).symlink_to(path)
     blocks = re.findall(r"^```sh\n(.*?)^```", (DOCS / page).read_text(encoding="utf-8"), re.S | re.M)
     for block in blocks[first:last]:
         subprocess.run(["bash", "-e", "-c", block], cwd=folder, env=environment(lamina), check=True,
@@ -70,10 +66,9 @@ def start(lamina, images):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         run_page("start/first-five-minutes.md", lamina, folder)
-        sheet([(folder / "head.png", "the first picture"), (folder / "face.png", "the camera turned"),
-               (folder / "bone.png", "bone alone, inferno"), (folder / "blobs.png", "lamina generate")],
-              images / "start-head.png")
-        sheet([(folder / "bluntfin.png", "the air around a blunt fin")], images / "start-fin.png", columns=1)
+        sheet([(folder / "head.png", "at first"), (folder / "face.png", "turned"),
+               (folder / "bone.png", "bone alone")], images / "start-head.png", columns=3)
+        sheet([(folder / "flow.png", "the flow past a cylinder")], images / "start-flow.png", columns=1)
 
 
 def annotations(lamina, images):
@@ -107,21 +102,21 @@ def precision(lamina, images):
 
 
 def meshes(lamina, images):
-    """A part of the fin, three times as large as on the page, so that the wrong stripes can be seen."""
+    """A part of the flow, three times as large as on the page, so that the wrong stripes can be seen."""
     from PIL import Image, ImageDraw
-    part = (300, 190, 620, 430)
+    part = (230, 200, 550, 440)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        run_page("learn/meshes.md", lamina, folder, last=1)
+        run_page("learn/meshes.md", lamina, folder, last=2)
         for order in "exact", "none":
             for suffix in "png", "exr":
-                subprocess.run([lamina, "render", "fin.json", "-o", f"{order}.{suffix}", "--quiet", "--set=image.width=960",
+                subprocess.run([lamina, "render", "flow.json", "-o", f"{order}.{suffix}", "--quiet", "--set=image.width=960",
                                 "--set=image.height=720", f"--set=render.project.order={order}"], cwd=folder, check=True)
         subprocess.run([lamina, "compare", "none.exr", "exact.exr", "--diff", "difference.png", "--range", "25"],
                        cwd=folder, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         exact, none, difference = (Image.open(folder / f"{what}.png").convert("RGB").crop(part)
                                    for what in ("exact", "none", "difference"))
-        whole = Image.open(folder / "fin.png").convert("RGB")
+        whole = Image.open(folder / "flow.png").convert("RGB")
         ImageDraw.Draw(whole).rectangle([round(edge / 3) for edge in part], outline="white", width=2)
         sheet([(whole, "the whole picture"), (exact, "right order"), (none, "the file's order"),
                (difference, "its difference")], images / "learn-meshes-order.png", colors=256)
@@ -159,15 +154,15 @@ def study(images):
     draw = ImageDraw.Draw(whole)
 
     def place(ms, error):
-        return (left + (width - left - right) * math.log(ms / 6) / math.log(240 / 6),
-                height - bottom - (height - top - bottom) * math.log(error / 5e-6) / math.log(60 / 5e-6))
+        return (left + (width - left - right) * math.log(ms / 50) / math.log(600 / 50),
+                height - bottom - (height - top - bottom) * math.log(error / 5e-4) / math.log(60 / 5e-4))
 
-    for exponent in range(-5, 2):
-        x, y = place(6, 10.0 ** exponent)
+    for exponent in range(-3, 2):
+        x, y = place(50, 10.0 ** exponent)
         draw.line([(x, y), (width - right, y)], PALE)
         draw.text((left - 8, y), f"{10.0 ** exponent:.{max(0, -exponent)}f}", INK, font(20), anchor="rm")
-    for ms in 10, 20, 50, 100, 200:
-        x, y = place(ms, 5e-6)
+    for ms in 50, 100, 200, 500:
+        x, y = place(ms, 5e-4)
         draw.line([(x, y), (x, top)], PALE)
         draw.text((x, y + 6), f"{ms}", INK, font(20), anchor="mt")
     draw.text(((left + width - right) / 2, height - 8), "ms a frame", INK, font(22), anchor="mb")
@@ -176,7 +171,7 @@ def study(images):
     draw.line([place(*point) for point in front], INK, 2)
     for slabs, kind, ms, error, _ in STUDY:
         study_point(draw, place(ms, error), slabs, kind)
-    study_legend(draw, *place(56, 1.3e-3))
+    study_legend(draw, *place(200, 1.0))
     whole.quantize(32).save(images / "learn-study-front.png", optimize=True)
 
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// A head made of analytic shapes: as a CT would show it, and as a map of its tissues.
+#pragma once
+
+#include <vector>
+
+#include "lamina/volume.h"
+#include "volume/nrrd_writer.h"
+
+namespace lamina {
+
+// Returns Hounsfield units as int16 in steps of 1.5 mm, 128 x 160 x 160 samples, in a patient's
+// axes (left, posterior, superior), with the noise of a scanner. Parallel, with progress.
+Volume head_ct();
+
+// Returns the tissue of each voxel of head_ct() as uint8; 0 is no tissue of head_segments().
+Volume head_labels();
+
+// Returns the names and colours of the tissues.
+std::vector<NrrdSegment> head_segments();
+
+}  // namespace lamina
