@@ -62,6 +62,7 @@ void write_nrrd_header(AtomicFile& file, const Grid& grid, SampleType type,
                         centering_text(grid.centering[1]), centering_text(grid.centering[2]),
                         series ? " ???" : "");
     text += fmt::format("kinds: domain domain domain{}\n", series ? " time" : "");
+    if (!extras.sample_unit.empty()) text += fmt::format("sample units: {}\n", extras.sample_unit);
     text +=
         fmt::format("endian: {}\n", std::endian::native == std::endian::little ? "little" : "big");
     text += fmt::format("encoding: raw\nspace origin: {}\n", vector_text(grid.origin));

@@ -21,9 +21,10 @@ struct NrrdSegment {
 
 // Contents of a file beside one volume of numbers.
 struct NrrdExtras {
-    std::int64_t times = 1;   // volumes, one after the other; more than 1: a time axis
-    double time_step = 1;     // from one to the next
-    std::string time_unit{};  // empty: none is written
+    std::int64_t times = 1;     // volumes, one after the other; more than 1: a time axis
+    double time_step = 1;       // from one to the next
+    std::string time_unit{};    // empty: none is written
+    std::string sample_unit{};  // likewise
     std::vector<NrrdSegment> segments{};
 };
 

@@ -55,8 +55,9 @@ TEST(ExampleVerb, WritesFilesThatSayWhatTheyHold) {
     EXPECT_EQ(head["type"], "int16");
     EXPECT_EQ(head["unit"], "mm");
     EXPECT_EQ(head["spacing"], json({1.5, 1.5, 1.5}));
-    EXPECT_NE(read_bytes_of(folder / "head.nrrd").find("space: left-posterior-superior\n"),
-              std::string::npos);
+    const std::string bytes = read_bytes_of(folder / "head.nrrd");
+    EXPECT_NE(bytes.find("space: left-posterior-superior\n"), std::string::npos);
+    EXPECT_NE(bytes.find("sample units: HU\n"), std::string::npos);
     const ProgramResult labels = run_in(folder, {"info", "labels.nrrd", "--json"});
     EXPECT_NE(labels.err.find("6 is \"cerebellum\""), std::string::npos) << labels.err;
     const json jet = json::parse(run_in(folder, {"info", "jet.nrrd", "--json"}).out);

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/client.h"
 #include "base/error.h"
 #include "base/output_file.h"
+#include "base/process.h"
 #include "mesh/flow_example.h"
 #include "mesh_files/mesh_file.h"
 #include "verbs.h"
@@ -30,12 +34,21 @@ struct Example {
     void (*write)(AtomicFile& file);
 };
 
+void write_with(AtomicFile& file, const Volume& volume, const NrrdExtras& extras) {
+    write_nrrd_header(file, volume.grid(), volume.type(), extras);
+    file.write(volume.data(), volume.byte_count());
+}
+
+void write_head(AtomicFile& file) {
+    NrrdExtras extras;
+    extras.sample_unit = "HU";
+    write_with(file, head_ct(), extras);
+}
+
 void write_labels(AtomicFile& file) {
-    const Volume labels = head_labels();
     NrrdExtras extras;
     extras.segments = head_segments();
-    write_nrrd_header(file, labels.grid(), labels.type(), extras);
-    file.write(labels.data(), labels.byte_count());
+    write_with(file, head_labels(), extras);
 }
 
 void write_jet(AtomicFile& file) {
@@ -50,7 +63,7 @@ void write_jet(AtomicFile& file) {
 
 const Example examples[] = {
     {"head", "head.nrrd", ".nrrd", "A head in a CT, in Hounsfield units and a patient's axes",
-     [](AtomicFile& file) { write_nrrd(file, head_ct()); }},
+     write_head},
     {"labels", "labels.seg.nrrd", ".nrrd", "The tissues of that head, as labels with names",
      write_labels},
     {"jet", "jet.nrrd", ".nrrd", "A turbulent jet that rises from a nozzle, at ten times",
