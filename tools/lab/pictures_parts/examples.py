@@ -12,12 +12,10 @@ FILMS = ("turn", "jet")
 
 
 def reduced(picture, path):
-    """Writes a picture with 128 colours, which keep their opacity."""
+    """Writes a picture with 128 colours, unless it is transparent: few opacities make blots."""
     from PIL import Image
     image = Image.open(picture)
-    if image.mode == "RGBA":
-        image = image.quantize(128, method=Image.Quantize.FASTOCTREE)
-    else:
+    if image.mode != "RGBA":
         image = image.convert("RGB").quantize(128, kmeans=2)
     image.save(path, optimize=True)
 
