@@ -321,28 +321,10 @@ std::vector<glm::dvec3> kept_of(const std::vector<glm::dvec3>& pairs, const Half
     return kept;
 }
 
-// Tells whether a corner of the tet is beyond one of the half-spaces.
-bool crosses(const std::vector<HalfSpace>& kept, std::span<const glm::dvec3> points,
-             const Tet& tet) {
-    return std::ranges::any_of(kept, [&](const HalfSpace& half) {
-        return std::ranges::any_of(tet, [&](std::int32_t corner) {
-            return distance(half, points[static_cast<std::size_t>(corner)]) < 0;
-        });
-    });
-}
-
-// Adds the ends of what the half-spaces keep of a tet's edges.
-void add_kept_edges(const std::vector<HalfSpace>& kept, std::span<const glm::dvec3> points,
-                    const Tet& tet, std::vector<glm::dvec3>& found) {
-    for (std::size_t i = 0; i < 4; ++i) {
-        for (std::size_t j = 0; j < i; ++j) {
-            glm::dvec3 a = points[static_cast<std::size_t>(tet[i])];
-            glm::dvec3 b = points[static_cast<std::size_t>(tet[j])];
-            if (std::ranges::all_of(kept,
-                                    [&](const HalfSpace& half) { return cut(half, 0, a, b); }))
-                found.insert(found.end(), {a, b});
-        }
-    }
+// Returns what the clip keeps of a mesh that outlives the result; null if nothing is left.
+std::shared_ptr<const SceneMesh> kept_of(const SceneMesh& mesh, const Clip& clip) {
+    const std::shared_ptr<const SceneMesh> whole(std::shared_ptr<const void>(), &mesh);
+    return clipped_mesh(whole, clip, false, "mesh");
 }
 
 }  // namespace
@@ -447,18 +429,18 @@ ValueDistribution MeshField::distribution() const {
 
 std::vector<glm::dvec3> MeshField::shown_points(const TransferFunction& transfer_function,
                                                 double least, const Clip& clip) const {
+    if (!clip.keeps_all()) {
+        const auto kept = kept_of(mesh_, clip);
+        if (!kept) return {};
+        return MeshField(*kept).shown_points(transfer_function, least);
+    }
     const auto points = mesh_.mesh.points();
-    const std::vector<HalfSpace> kept = half_spaces(clip);
     std::vector<char> shown(points.size());
     std::vector<glm::dvec3> found;
     for (const Tet& tet : mesh_.mesh.tets()) {
         const ValueRange range = range_in(mesh_.scalar.values, tet);
         if (range.empty() || !(transfer_function.max_extinction(range.lo, range.hi) > least))
             continue;
-        if (crosses(kept, points, tet)) {
-            add_kept_edges(kept, points, tet, found);
-            continue;
-        }
         for (const std::int32_t corner : tet) shown[static_cast<std::size_t>(corner)] = 1;
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -472,6 +454,13 @@ std::array<glm::dvec3, 8> MeshField::corners() const {
 }
 
 std::vector<double> MeshField::optical_depths(const Scene& scene) const {
+    if (!scene.clip.keeps_all()) {
+        const auto kept = kept_of(mesh_, scene.clip);
+        if (!kept) return {};
+        Scene whole = scene;
+        whole.clip = {};
+        return MeshField(*kept).optical_depths(whole);
+    }
     std::vector<double> depths;
     for (const auto& ray : find_view_rays(scene, mesh_)) {
         double depth = 0;

@@ -13,7 +13,9 @@
 
 #include "choice/field.h"
 #include "scene/camera.h"
+#include "scene/scene.h"
 #include "support/expect_error.h"
+#include "support/split_box.h"
 #include "support/volume_of.h"
 
 namespace lamina {
@@ -263,6 +265,23 @@ TEST(CropWords, FitTheCameraToWhatIsLeft) {
     EXPECT_LT(glm::distance(cut.camera->eye, expected.eye), 1e-9);
     EXPECT_LT(glm::distance(cut.camera->eye, cut.camera->center),
               .7 * glm::distance(whole.camera->eye, whole.camera->center));
+}
+
+TEST(CropWords, FitTheCameraToWhatIsLeftOfAMesh) {
+    Scene scene = open_scene();
+    scene.transfer_function =
+        TransferFunction::linear({{0, {glm::dvec3(1), 1}}, {36, {glm::dvec3(1), 2}}});
+    const SceneMesh mesh = scene_mesh(
+        Scene(), test::kuhn_box({12, 12, 12}, [](const glm::dvec3& p) { return p.x + p.y + p.z; }));
+    const MeshField field(mesh);
+    const Scene cut = chosen_with({.crop = "2.5:9,3:8.5,4:7"}, field, scene);
+    const Orientation from = orientation_of(WorldAxes::named, field.corners());
+    const auto corners = box_corners({2.5, 3, 4}, {9, 8.5, 7});
+    const Camera expected =
+        fitted_camera(corners, from.front, turn_to(ViewSide::iso, from), 64, 48);
+    // Corners are where rounded planes cross rounded edges: 1e-10 of the mesh's size.
+    EXPECT_LT(glm::distance(cut.camera->eye, expected.eye), 1e-8);
+    EXPECT_EQ(cut.camera->up, glm::dvec3(0, 0, 1));
 }
 
 TEST(ViewWords, ReplaceTheCameraOfAScene) {

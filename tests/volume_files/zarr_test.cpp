@@ -82,6 +82,7 @@ TEST_F(ZarrHierarchies, ListLevelsChannelsTimesAndLabels) {
     const test::HeardWarnings heard;
     const Volume volume = open("a.zarr");
     EXPECT_EQ(volume.grid().unit, "nm");
+    EXPECT_EQ(volume.grid().axes, WorldAxes::named);
     EXPECT_EQ(contents.arrays, (std::vector<std::string>{"", "labels/cells"}));
     EXPECT_EQ(contents.channels, (std::vector<std::string>{"DAPI", ""}));
     EXPECT_EQ(contents.times, (std::vector<std::string>{"0 minute", "2.5 minute", "5 minute"}));
@@ -98,6 +99,18 @@ TEST_F(ZarrHierarchies, ListLevelsChannelsTimesAndLabels) {
     EXPECT_EQ(open("a.zarr/1").grid().step[0].x, 4);
     const OnlyBelowScope below(folder / "a.zarr/1");
     EXPECT_EQ(open("a.zarr/1").grid().step[0].x, 1);
+}
+
+// By which an automatic camera knows that z is up.
+TEST_F(ZarrHierarchies, KeepWhetherAxesHaveNames) {
+    const test::HeardWarnings heard;
+    const auto axes_of_array = [&](const json& attributes) {
+        write_array("one.zarr", {3, 4, 5}, 'x', attributes);
+        return open("one.zarr").grid().axes;
+    };
+    EXPECT_EQ(axes_of_array(json::object()), WorldAxes::unnamed);
+    EXPECT_EQ(axes_of_array({{"_ARRAY_DIMENSIONS", {"lev", "lat", "lon"}}}), WorldAxes::named);
+    EXPECT_EQ(axes_of_array({{"_ARRAY_DIMENSIONS", {"a", "b", "x"}}}), WorldAxes::unnamed);
 }
 
 TEST_F(ZarrHierarchies, SayWhichUnitsAreNotBroughtToOne) {
