@@ -299,10 +299,13 @@ void OwnFiles::remove_all() const {
     const std::string of_verb = verb_ + ": ";
     bool others = false;
     for (const std::string& line : listed()) {
-        if (line.starts_with(of_verb))
-            std::filesystem::remove(folder_ / line.substr(of_verb.size()));
-        else
+        if (!line.starts_with(of_verb)) {
             others = true;
+            continue;
+        }
+        const std::filesystem::path name = line.substr(of_verb.size());
+        // Another's list may name files elsewhere.
+        if (name == name.filename()) std::filesystem::remove(folder_ / name);
     }
     if (!others) std::filesystem::remove(folder_ / list_name);
     if (std::filesystem::is_empty(folder_)) std::filesystem::remove(folder_);

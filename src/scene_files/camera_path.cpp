@@ -154,7 +154,7 @@ CameraPath::Rate CameraPath::rate_at(std::size_t keyframe) const {
 CameraPath::CameraPath(std::vector<Keyframe> keyframes) : keyframes_(std::move(keyframes)) {
     for (const Keyframe& keyframe : keyframes_) {
         Pose pose = pose_of(keyframe.camera);
-        // Of the two quaternions of a rotation, the nearer one: the shorter way round.
+        // A rotation has two quaternions; the nearer one takes the shorter way round.
         if (!poses_.empty() && glm::dot(poses_.back().axes, pose.axes) < 0) pose.axes = -pose.axes;
         poses_.push_back(pose);
     }
