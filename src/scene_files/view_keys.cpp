@@ -98,8 +98,6 @@ void lighting_keys(KeyTable<Lighting>& keys) {
 void add_lighting(KeyTable<Scene>& scene) {
     Form<Lighting> form = object_form(table_of<lighting_keys>);
     form.read = [](JsonReader& reader, const std::string& key) {
-        if (!reader.value(key).is_object())
-            reader.reject(key, "an object {...}, or nothing for colours as they are");
         JsonReader object = reader.object(key);
         Lighting lighting;
         table_of<lighting_keys>().read(object, lighting);
@@ -107,9 +105,12 @@ void add_lighting(KeyTable<Scene>& scene) {
             object.fail_at(mistake->key, mistake->message);
         return lighting;
     };
-    scene.key("lighting", &Scene::lighting, optional_form(form),
-              "Emission is lit by the gradient of the scalar, on both of its sides; absent: "
-              "colours are shown as they are.");
+    scene.key("lighting", &Scene::lighting,
+              optional_form(automatic_form(form, &nlohmann::json::is_object,
+                                           "\"auto\", an object {...}, or nothing for colours as "
+                                           "they are")),
+              "Emission is lit by the gradient of the scalar, on both of its sides; auto: if that "
+              "shows surfaces of the data; absent: colours are shown as they are.");
 }
 
 void image_keys(KeyTable<Scene>& keys) {
