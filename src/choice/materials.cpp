@@ -15,6 +15,7 @@ namespace {
 // one. Less is the ripple of a smooth histogram: MRI's white matter stands out 1.5 times.
 constexpr double least_prominence = 1.25;
 constexpr double least_share = .01;       // of the field, for a hump
+constexpr double least_excess = .003;     // of the field, of a hump above the valley below it
 constexpr double least_background = .2;   // of the field
 constexpr double most_clipped = .05;      // of the field, for values cut off at an end
 constexpr double clipped_peak = 3;        // times as many as in the bin beside them
@@ -160,8 +161,22 @@ class Humps {
         return true;
     }
     bool take_away_rare() {
-        if (share(rarest()) >= least_share) return false;
-        return take_away_rarest();
+        if (share(rarest()) < least_share) return take_away_rarest();
+        for (std::size_t i = 1; i < tops_.size(); ++i) {
+            if (share_above_valley(i) >= least_excess) continue;
+            erase(i);
+            return true;
+        }
+        return false;
+    }
+
+    // Returns how much of the field makes hump i rise above the valley below it.
+    double share_above_valley(std::size_t i) const {
+        const double valley = heights_[begin(i)];
+        double sum = 0;
+        for (std::size_t bin = begin(i); bin < begin(i + 1); ++bin)
+            sum += std::max(heights_[bin] - valley, 0.);
+        return sum;
     }
 
     // Takes away a hump next to the background whose places are neither coherent nor flatter than
