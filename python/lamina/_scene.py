@@ -124,7 +124,8 @@ def scene_of(data: Any, transfer_function: Any = None, keywords: Mapping[str, An
     """Returns the scene that draws what a caller names, in any of the ways that ``Scene`` lists."""
     changes = {"transfer_function": transfer_function, **(keywords or {})}
     folder = folder_name(only_below)
-    scene = _plain_scene_of(data, folder, {} if transfer_function is not None else _CHOSEN)._changed(changes)
+    chosen = _CHOSEN if transfer_function is None else {}
+    scene = _plain_scene_of(data, folder, chosen)._changed(changes)
     scene._only_below = folder
     return scene
 

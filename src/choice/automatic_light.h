@@ -9,7 +9,7 @@
 
 namespace lamina {
 
-// Whether data are lit, and why.
+// The answer to whether data are lit, with its reason.
 struct LightChoice {
     bool lit = false;
     std::string reason;  // for people
