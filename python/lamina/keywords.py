@@ -362,8 +362,8 @@ class Keywords(TypedDict, total=False):
     - ``camera``: auto: chosen from the data (docs/first-picture.md). Default: "auto".
     - ``clip``: What is drawn of the data: what lies on the kept side of all planes and in the box. Nothing is cut
       away if it is left out.
-    - ``lighting``: Emission is lit by the gradient of the scalar, on both of its sides; absent: colours are shown as
-      they are.
+    - ``lighting``: Emission is lit by the gradient of the scalar, on both of its sides; auto: if that shows surfaces
+      of the data; absent: colours are shown as they are.
     - ``width``: Default: 800.
     - ``height``: Default: 600.
     - ``color_space``: What triples and colour maps are given in, and pictures composited in: linear light, or display
@@ -386,7 +386,7 @@ class Keywords(TypedDict, total=False):
     nan: Union[Literal["error", "transparent"], None]
     camera: Union[Literal["auto"], CameraKeys, Camera, None]
     clip: Union[ClipKeys, None]
-    lighting: Union[LightingKeys, Lighting, None]
+    lighting: Union[Literal["auto"], LightingKeys, Lighting, None]
     width: Union[int, None]
     height: Union[int, None]
     color_space: Union[Literal["linear", "display"], None]
