@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "support/split_box.h"
+#include "support/stored_volume.h"
 #include "support/volume_of.h"
 
 namespace lamina {
@@ -59,6 +60,17 @@ TEST(Variation, LeavesOutPlacesBesideValuesThatWereNotMeasured) {
         if (found.weight(bin) > 0) EXPECT_NEAR(found.slope(bin), 1, 1e-12) << bin;
     }
     EXPECT_EQ(found.weight(found.bin_of(10)), 0);  // their neighbours at 9 are padding
+}
+
+TEST(Variation, DoesNotDependOnWhereTheSamplesAreKept) {
+    const Volume volume = test::noise(test::grid_of({70, 90, 33}, Centering::node), 2);
+    const Variation here = measured(volume, 0, 255);
+    const Variation there = measured(test::stored(volume), 0, 255);
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+        EXPECT_EQ(here.weight(bin), there.weight(bin));
+        EXPECT_EQ(here.slope(bin), there.slope(bin));
+        EXPECT_EQ(here.coherence(bin), there.coherence(bin));
+    }
 }
 
 TEST(Variation, IsMirroredWithTheValues) {
