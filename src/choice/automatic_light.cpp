@@ -15,7 +15,7 @@ namespace {
 
 // Least share of what shows that lies on surfaces. Of white noise it is a tenth.
 constexpr double least_surfaces = 1. / 3;
-constexpr std::size_t bins = 256;
+constexpr std::size_t light_bins = 256;
 // Bound on the error, in 1/255, below which software OpenGL may refuse light: its loops are too
 // short (docs/lighting.md). Choices must not depend on the context, so none of them lights then.
 constexpr double least_lit_error = .25;
@@ -56,11 +56,12 @@ LightChoice choose_light(const Scene& scene, const TransferSubject& subject, con
     if (is_sheet(subject))
         return {false, "not lit: the mesh is a sheet, and gradients do not say how it is bent"};
     const ValueRange measured{values.lowest(), values.highest()};
-    const Variation around = field.variation(measured, Variation(measured.lo, measured.hi, bins));
-    const double half_bin = (measured.hi / 2 - measured.lo / 2) / static_cast<double>(bins);
+    const Variation around =
+        field.variation(measured, Variation(measured.lo, measured.hi, light_bins));
+    const double half_bin = (measured.hi / 2 - measured.lo / 2) / static_cast<double>(light_bins);
     const double spacing = field.spacing();
     double shown = 0, surfaces = 0;
-    for (std::size_t bin = 0; bin < bins; ++bin) {
+    for (std::size_t bin = 0; bin < light_bins; ++bin) {
         const auto opacity_at = [&](double value) {
             return -std::expm1(-scene.transfer_function->at(value).extinction * spacing);
         };

@@ -14,7 +14,7 @@ namespace {
 // A hump stands out if it is this many times as high as the lowest place between it and a higher
 // one. Less is the ripple of a smooth histogram: MRI's white matter stands out 1.5 times.
 constexpr double least_prominence = 1.25;
-constexpr double least_share = .01;       // of the field, for a hump
+constexpr double least_hump = .01;        // of the field, for a hump
 constexpr double least_excess = .003;     // of the field, of a hump above the valley below it
 constexpr double least_background = .2;   // of the field
 constexpr double most_clipped = .05;      // of the field, for values cut off at an end
@@ -26,7 +26,7 @@ constexpr double foot = .1;              // share of its height at which the las
 constexpr double least_rest = .005;      // of the field, for what lies beyond the last hump
 constexpr double least_rest_width = .1;  // of the range, likewise
 constexpr double steep = .8;             // share of the largest slope that makes its surface
-constexpr double far_rest = .05;         // share of the rest that is left out, as too rare
+constexpr double rare_rest = .05;        // share of the rest that is left out, as too rare
 
 using Shares = std::vector<double>;
 
@@ -161,7 +161,7 @@ class Humps {
         return true;
     }
     bool take_away_rare() {
-        if (share(rarest()) < least_share) return take_away_rarest();
+        if (share(rarest()) < least_hump) return take_away_rarest();
         for (std::size_t i = 1; i < tops_.size(); ++i) {
             if (share_above_valley(i) >= least_excess) continue;
             erase(i);
@@ -233,7 +233,7 @@ class Humps {
         if (rest < least_rest || static_cast<double>(n - end) < least_rest_width * double(n))
             return;
         double steepest = 0, left = rest;
-        for (std::size_t bin = end; bin < n && left > far_rest * rest; ++bin) {
+        for (std::size_t bin = end; bin < n && left > rare_rest * rest; ++bin) {
             steepest = std::max(steepest, variation_.slope(bin));
             left -= shares_[bin];
         }

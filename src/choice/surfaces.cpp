@@ -57,7 +57,7 @@ constexpr double widest = .3;  // half width of a peak, relative to the distance
 constexpr double least_distance = 4;    // bins between two levels
 constexpr double least_width = .75;     // bins, of half a peak
 constexpr double noise_coherence = .5;  // share of coherent places below which values are noise
-constexpr int most_bins = 256;
+constexpr int histogram_bins = 256;
 // Share of uncommon values below which a side shows nothing: it is noise, or the foot of a peak.
 constexpr double least_side = .05;
 // Opacity of the median ray by what is faint: the outline of a mesh; data without a background;
@@ -87,7 +87,7 @@ struct Surroundings {
                            const TransferSubject& subject) {
         const ValueRange range = usual_range(values);
         const ValueHistogram histogram =
-            binned(values.between(range.lo, range.hi), range, whole_numbers, most_bins);
+            binned(values.between(range.lo, range.hi), range, whole_numbers, histogram_bins);
         const double lo = histogram.lo, hi = histogram.hi;
         const Variation bins(lo, hi, histogram.shares.size());
         const double diagonal = subject.field != nullptr ? diagonal_of(*subject.field) : 1;
@@ -207,14 +207,14 @@ std::vector<TransferKnot> points_of_side(Side side, Colors colors, const Surroun
 }
 
 // Returns the extinction with which the median path through the data has an opacity.
-double extinction_of(double opacity, double path) {
+double veil_extinction(double opacity, double path) {
     return path > 0 ? -std::log1p(-opacity) / path : 0;
 }
 
 // Shows common values as a faint outline, and all others at least as much.
 void add_outline(std::vector<TransferKnot>& points, const CommonValues& common,
                  const TransferSubject& subject) {
-    const double extinction = extinction_of(outline_opacity, subject.median_path());
+    const double extinction = veil_extinction(outline_opacity, subject.median_path());
     for (TransferKnot& point : points)
         point.optics.extinction = std::max(point.optics.extinction, extinction);
     std::erase_if(points, [&](const TransferKnot& point) {
@@ -338,7 +338,7 @@ ChosenSurfaces of_filled_field(const ValueDistribution& values, const Surroundin
                                const TransferSubject& subject) {
     const auto points = points_of_side(Side::above(values, values.lowest()), upwards, around);
     const double opacity = is_sheet(subject) ? sheet_opacity : veil_opacity;
-    return {veiled(points, values, extinction_of(opacity, subject.median_path())),
+    return {veiled(points, values, veil_extinction(opacity, subject.median_path())),
             fmt::format("no value is a background: all from {} to {} show, coloured by their rank",
                         number_of(values.lowest(), values), number_of(values.highest(), values))};
 }

@@ -116,9 +116,9 @@ class VolumePlaces {
     VolumePlaces(const Volume& volume, const ValueRange& measured, const Variation& bins)
         : volume_(volume), measured_(measured), bins_(bins) {
         const bool large = volume.grid().sample_count() > large_volume;
-        const std::int64_t edge = large ? 8 : 4, most = large ? 8 : 16;
+        const std::int64_t along = large ? 8 : 4, most = large ? 8 : 16;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            pieces_.emplace_back(volume.grid().size[axis], edge, most);
+            pieces_.emplace_back(volume.grid().size[axis], along, most);
             inverse_step_[axis] = 1 / glm::length(volume.grid().step[axis]);
         }
     }
@@ -210,7 +210,7 @@ class VolumePlaces {
     std::array<double, 3> inverse_step_{};
 };
 
-constexpr std::size_t most_tets = std::size_t{1} << 17;  // more tets are sampled evenly
+constexpr std::size_t measured_tets = std::size_t{1} << 17;  // more tets are sampled evenly
 
 }  // namespace
 
@@ -224,7 +224,7 @@ Variation variation_of(const SceneMesh& mesh, const ValueRange& measured, const 
     Variation total = bins;
     const auto points = mesh.mesh.points();
     const auto tets = mesh.mesh.tets();
-    const std::size_t step = tets.size() / most_tets + 1;
+    const std::size_t step = tets.size() / measured_tets + 1;
     for (std::size_t i = 0; i < tets.size(); i += step) {
         std::array<glm::dvec3, 4> at;
         std::array<double, 4> values;

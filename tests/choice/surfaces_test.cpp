@@ -156,7 +156,12 @@ TEST(AutomaticLight, IsNotChosenWhereItWouldBeRefused) {
            }),
            "render.project.table");
     expect(reason_for([](Scene& scene) {
-               scene.slice.tree = TreeSettings{.factors = {4}, .nodes = NodeArithmetic::fixed};
+               scene.slice.tree = [] {
+                   TreeSettings tree;
+                   tree.factors = {4};
+                   tree.nodes = NodeArithmetic::fixed;
+                   return tree;
+               }();
            }),
            "render.slice.tree");
 }
@@ -166,7 +171,9 @@ TEST(AutomaticLight, IsNotChosenUnlessTheSceneLeavesItOpen) {
     Scene scene = open_scene();
     scene.lighting.reset();
     EXPECT_FALSE(choose(scene, scan.field).scene.lighting);
-    scene.lighting = Lighting{.diffuse = .5};
+    Lighting dim;
+    dim.diffuse = .5;
+    scene.lighting = dim;
     const Scene given = choose(scene, scan.field).scene;
     EXPECT_EQ(given_lighting(given.lighting)->diffuse, .5);
 }

@@ -57,7 +57,8 @@ TEST(Variation, LeavesOutPlacesBesideValuesThatWereNotMeasured) {
                         [](double i, double, double) { return i < 10 ? -9999 : i; });
     const Variation found = measured(volume, 10, 19);
     for (std::size_t bin = 0; bin < bins; ++bin) {
-        if (found.weight(bin) > 0) EXPECT_NEAR(found.slope(bin), 1, 1e-12) << bin;
+        if (found.weight(bin) == 0) continue;
+        EXPECT_NEAR(found.slope(bin), 1, 1e-12) << bin;
     }
     EXPECT_EQ(found.weight(found.bin_of(10)), 0);  // their neighbours at 9 are padding
 }

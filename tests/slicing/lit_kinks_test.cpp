@@ -28,7 +28,8 @@ Scene scene_of(const Volume& volume, double depth) {
              knot(at(.6), {1, .8, .7}, 3 * extinction), knot(at(1), {.1, .3, 1}, extinction)}),
         Projection::perspective, 48, 36);
     scene.slice.classification = Classification::exact;
-    scene.lighting = Lighting{.smallest_gradient = .01 * (range.hi - range.lo)};
+    scene.lighting = Lighting{};
+    (*scene.lighting)->smallest_gradient = .01 * (range.hi - range.lo);
     scene.camera->center = reference_test::middle_of(volume.grid());
     scene.camera->eye =
         scene.camera->center + .8 * diagonal * glm::normalize(glm::dvec3(.4, -.7, .9));
