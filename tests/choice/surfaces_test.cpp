@@ -15,12 +15,12 @@
 namespace lamina {
 namespace {
 
-constexpr double edge = 63, outer = 24, inner = 12;  // samples
-constexpr double air = 20, flesh = 100, bone = 200;  // values
-constexpr double sigma = 6;                          // of the noise
+constexpr double last_sample = 63, outer_radius = 24, inner_radius = 12;  // samples
+constexpr double air = 20, flesh = 100, bone = 200;                       // values
+constexpr double sigma = 6;                                               // of the noise
 
 double distance_to_middle(double i, double j, double k) {
-    return glm::length(glm::dvec3(i, j, k) - glm::dvec3(edge / 2));
+    return glm::length(glm::dvec3(i, j, k) - glm::dvec3(last_sample / 2));
 }
 
 // A value that goes from `inside` to `outside` at a radius, within some two samples.
@@ -31,8 +31,9 @@ double blurred(double distance, double radius, double inside, double outside) {
 
 // A ball of bone in one of flesh, in air.
 double scanned(double distance) {
-    return distance < (inner + outer) / 2 ? blurred(distance, inner, bone, flesh)
-                                          : blurred(distance, outer, flesh, air);
+    return distance < (inner_radius + outer_radius) / 2
+               ? blurred(distance, inner_radius, bone, flesh)
+               : blurred(distance, outer_radius, flesh, air);
 }
 
 struct Scan {
@@ -46,7 +47,7 @@ struct Scan {
     VolumeField field{volume, bricks};
 };
 
-Scene open_scene(int width = 64, int height = 64) {
+Scene picture_scene(int width = 64, int height = 64) {
     Scene scene;
     scene.width = width;
     scene.height = height;
@@ -68,13 +69,13 @@ double opacity_along(const TransferFunction& function, double from, double to) {
 // Of white noise 3 values in 10,000 are more than 3.6 sigma from the mean.
 TEST(Surfaces, NoiseAroundAThingIsTransparent) {
     const Scan scan;
-    const TransferFunction function = *choose(open_scene(), scan.field).scene.transfer_function;
+    const TransferFunction function = *choose(picture_scene(), scan.field).scene.transfer_function;
     EXPECT_TRUE(function.transparent(-1e3, air + 3.6 * sigma));
 }
 
 TEST(Surfaces, TwoMaterialsGetTwoColorsAndTheOuterOneDoesNotHideTheInner) {
     const Scan scan;
-    const auto [scene, reasons] = choose(open_scene(), scan.field);
+    const auto [scene, reasons] = choose(picture_scene(), scan.field);
     const TransferFunction& function = *scene.transfer_function;
     EXPECT_NE(reasons[0].find("2 materials"), std::string::npos) << reasons[0];
     const glm::dvec3 apart = glm::abs(function.at(flesh).color - function.at(bone).color);
@@ -83,21 +84,21 @@ TEST(Surfaces, TwoMaterialsGetTwoColorsAndTheOuterOneDoesNotHideTheInner) {
     // One material has one colour, whatever its noise.
     EXPECT_EQ(function.at(flesh - 2 * sigma).color, function.at(flesh + 2 * sigma).color);
     EXPECT_EQ(function.at(bone - 2 * sigma).color, function.at(bone + 2 * sigma).color);
-    const double shell = opacity_along(function, edge / 2, inner + 2);
+    const double shell = opacity_along(function, last_sample / 2, inner_radius + 2);
     EXPECT_GT(shell, .1);
     EXPECT_LT(shell, .7);
     // The surface inside is dense: what shows of it lies within two samples.
-    EXPECT_GT(opacity_along(function, inner + 2, inner - 2), .9);
+    EXPECT_GT(opacity_along(function, inner_radius + 2, inner_radius - 2), .9);
 }
 
 TEST(Surfaces, DoNotDependOnThePicture) {
     const Scan scan;
-    const Scene small = choose(open_scene(200, 150), scan.field).scene;
+    const Scene small = choose(picture_scene(200, 150), scan.field).scene;
     for (const auto& [width, height] : {std::pair(800, 600), {400, 400}, {900, 100}}) {
-        const Scene other = choose(open_scene(width, height), scan.field).scene;
+        const Scene other = choose(picture_scene(width, height), scan.field).scene;
         EXPECT_EQ(other.transfer_function, small.transfer_function) << width << " x " << height;
     }
-    const Scene turned = choose(open_scene(), scan.field, {.turn = {70, 20}, .zoom = 3}).scene;
+    const Scene turned = choose(picture_scene(), scan.field, {.turn = {70, 20}, .zoom = 3}).scene;
     EXPECT_EQ(turned.transfer_function, small.transfer_function);
 }
 
@@ -108,7 +109,7 @@ TEST(Surfaces, OfASmoothFieldLetInnerOnesShow) {
             return std::exp(-std::pow(distance_to_middle(i, j, k) / 12, 2));
         });
     const MinMaxBricks bricks = measure_bricks(volume);
-    const auto [scene, reasons] = choose(open_scene(), VolumeField(volume, bricks));
+    const auto [scene, reasons] = choose(picture_scene(), VolumeField(volume, bricks));
     const TransferFunction& function = *scene.transfer_function;
     EXPECT_EQ(reasons[0].find("material"), std::string::npos) << reasons[0];
     EXPECT_EQ(function.at(0).extinction, 0);
@@ -126,13 +127,13 @@ TEST(Surfaces, OfASmoothFieldLetInnerOnesShow) {
 
 TEST(AutomaticLight, ShowsSurfacesButNotNoise) {
     const Scan scan;
-    const auto [lit, reasons] = choose(open_scene(), scan.field);
+    const auto [lit, reasons] = choose(picture_scene(), scan.field);
     ASSERT_TRUE(lit.lighting && lit.lighting->is_given());
     EXPECT_TRUE((*lit.lighting)->smallest_gradient.is_given());
     EXPECT_NE(reasons[2].find("lighting: lit"), std::string::npos) << reasons[2];
     const Volume noise = test::noise(test::grid_of({40, 40, 40}, Centering::node), 9);
     const MinMaxBricks bricks = measure_bricks(noise);
-    const auto [unlit, why] = choose(open_scene(), VolumeField(noise, bricks));
+    const auto [unlit, why] = choose(picture_scene(), VolumeField(noise, bricks));
     EXPECT_FALSE(unlit.lighting);
     EXPECT_NE(why[2].find("not lit"), std::string::npos) << why[2];
 }
@@ -140,7 +141,7 @@ TEST(AutomaticLight, ShowsSurfacesButNotNoise) {
 TEST(AutomaticLight, IsNotChosenWhereItWouldBeRefused) {
     const Scan scan;
     const auto reason_for = [&](const auto& change) {
-        Scene scene = open_scene();
+        Scene scene = picture_scene();
         change(scene);
         const auto [chosen, reasons] = choose(scene, scan.field);
         EXPECT_FALSE(chosen.lighting);
@@ -168,7 +169,7 @@ TEST(AutomaticLight, IsNotChosenWhereItWouldBeRefused) {
 
 TEST(AutomaticLight, IsNotChosenUnlessTheSceneLeavesItOpen) {
     const Scan scan;
-    Scene scene = open_scene();
+    Scene scene = picture_scene();
     scene.lighting.reset();
     EXPECT_FALSE(choose(scene, scan.field).scene.lighting);
     Lighting dim;
