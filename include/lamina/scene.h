@@ -69,7 +69,9 @@ struct Scene {
     // The transfer function as a scene file gives it; null if it gives none. If it is a colour map
     // without a range, an automatic transfer function is that map, stretched over the data.
     std::shared_ptr<const GivenTransfer> given_transfer;
-    std::optional<Lighting> lighting;  // without lighting colours are shown as they are
+    // Without lighting colours are shown as they are. If it is automatic, the data are lit if that
+    // shows their surfaces (docs/first-picture.md).
+    std::optional<Auto<Lighting>> lighting;
     int width = 800;
     int height = 600;
     // Space in which colours and background are numbers, and in which the picture is composited.

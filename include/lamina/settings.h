@@ -122,6 +122,17 @@ struct Lighting {
     friend bool operator==(const Lighting&, const Lighting&) = default;
 };
 
+// Returns the lighting if it is given, else null.
+inline const Lighting* given_lighting(const std::optional<Auto<Lighting>>& lighting) {
+    return lighting && lighting->is_given() ? &**lighting : nullptr;
+}
+
+// Returns a copy of the given lighting; empty if there is none.
+inline std::optional<Lighting> copied_lighting(const std::optional<Auto<Lighting>>& lighting) {
+    const Lighting* const given = given_lighting(lighting);
+    return given != nullptr ? std::optional<Lighting>(*given) : std::nullopt;
+}
+
 // Rounding of an opacity to a code (LaMar 2004, section 4.1: the paper's hardware truncates).
 enum class AlphaRounding { truncate, nearest, stochastic };
 

@@ -125,37 +125,43 @@ def scene_of(data: Any, transfer_function: Any = None, keywords: Mapping[str, An
     """Returns the scene that draws what a caller names, in any of the ways that ``Scene`` lists."""
     changes = {"transfer_function": transfer_function, **(keywords or {})}
     folder = folder_name(only_below)
-    scene = _plain_scene_of(data, folder)._changed(changes)
+    chosen = _CHOSEN if transfer_function is None else {}
+    scene = _plain_scene_of(data, folder, chosen)._changed(changes)
     scene._only_below = folder
     return scene
 
 
-def _plain_scene_of(data: Any, only_below: str) -> Scene:
+# What is chosen of a picture of plain data, beside transfer function and camera (docs/first-picture.md). The command
+# line has the same rule.
+_CHOSEN: dict[str, Any] = {"lighting": "auto", "image": {"background": [1, 1, 1]}}
+
+
+def _plain_scene_of(data: Any, only_below: str, chosen: Mapping[str, Any]) -> Scene:
     if isinstance(data, Scene):
         return data
     if isinstance(data, Mapping):
         return Scene(data)
     if isinstance(data, (str, os.PathLike)):
-        return _file_scene(pathlib.Path(data), only_below)
+        return _file_scene(pathlib.Path(data), only_below, chosen)
     if isinstance(data, Volume):
-        return Scene({"version": 1, **({"volume": data._source} if data._source else {})}, data)
+        return Scene({"version": 1, **({"volume": data._source} if data._source else {}), **chosen}, data)
     if isinstance(data, Mesh):
-        document: dict[str, Any] = {"version": 1, **({"mesh": data.file} if data.file else {})}
+        document: dict[str, Any] = {"version": 1, **({"mesh": data.file} if data.file else {}), **chosen}
         if not data._core.point_scalars:
             document["scalar"] = next(iter(data.scalars), "")
         return Scene(document, data)
     if hasattr(data, "__array__") or hasattr(data, "__array_interface__") or isinstance(data, memoryview):
-        return Scene({"version": 1}, Volume(np.asanyarray(data)))
+        return Scene({"version": 1, **chosen}, Volume(np.asanyarray(data)))
     raise TypeError(f"found {type(data).__name__}, expected a Volume, a Mesh, an array, a Scene, a dictionary or the path "
                     "of a scene or data file")
 
 
-def _file_scene(path: pathlib.Path, only_below: str) -> Scene:
+def _file_scene(path: pathlib.Path, only_below: str, chosen: Mapping[str, Any]) -> Scene:
     kind = _lamina.kind_of_file(path, only_below)
     if kind == "scene":
         return Scene.load(path)
     # The command line has the same rule (docs/first-picture.md).
-    return Scene({"version": 1, kind: str(path.absolute()), "nan": "transparent"})
+    return Scene({"version": 1, kind: str(path.absolute()), "nan": "transparent", **chosen})
 
 
 def _kept(data: Volume | Mesh, beside: pathlib.Path) -> pathlib.Path:
@@ -179,6 +185,8 @@ def _set(document: dict[str, Any], key: str, value: Any) -> None:
     node: Any = document
     for part in path:
         if isinstance(node, dict):
+            if node.get(part) == "auto":
+                node[part] = {}
             node = node.setdefault(part, {})
         elif isinstance(node, list) and part.isdigit() and int(part) < len(node):
             node = node[int(part)]

@@ -23,88 +23,9 @@ namespace {
 
 constexpr std::size_t most_labels = 24;  // up to as many different whole numbers are labels
 
-// Colours in linear light, from values next to the common ones to the rarest: `upwards` for one
-// side of the common ones, `downwards` and `beyond` for below and above if both sides show. No
-// component is 1, so that no picture is saturated by them.
-constexpr std::array<glm::dvec3, 5> upwards{
-    {{.035, .10, .30}, {.05, .30, .38}, {.55, .22, .07}, {.86, .45, .10}, {.92, .80, .55}}};
-constexpr std::array<glm::dvec3, 3> downwards{{{.05, .12, .35}, {.05, .40, .55}, {.55, .80, .75}}};
-constexpr std::array<glm::dvec3, 3> beyond{{{.45, .12, .04}, {.86, .42, .08}, {.92, .80, .50}}};
-
-glm::dvec3 color_at(std::span<const glm::dvec3> colors, double place) {
-    const double scaled = place * static_cast<double>(colors.size() - 1);
-    const auto first = std::min(static_cast<std::size_t>(scaled), colors.size() - 2);
-    return glm::mix(colors[first], colors[first + 1], scaled - static_cast<double>(first));
-}
-
-// If a share s of a side's values is farther out, extinction is max(s, least_rest)^-rarity.
-constexpr double rarity = .8;
-constexpr double least_rest = .004;
-// Place (Side::place()) up to which extinction rises from 0 at the border of the common values.
-constexpr double rise = .1;
-constexpr int steps = 8;  // linear pieces from the place `rise` to the end of a side
-// Share of a side's values up to which its colours change; the outermost have the last colour.
-constexpr double far_share = .998;
-// Share of uncommon values below which a side shows nothing: it is noise, or the foot of a peak.
-constexpr double least_side = .05;
-// Extinction of common values that are no background, relative to the values next to them.
-constexpr double faint = .25;
-
-// The values below or above the common ones. The place of a value goes from 0 at `border`, next to
-// the common values, to 1 at `end`, from which on the colour stays the last one (far_share).
-struct Side {
-    ValueDistribution values;
-    double border, end;
-
-    static Side above(const ValueDistribution& all, double border) {
-        const auto part = all.between(std::nextafter(border, INFINITY), all.highest());
-        return {part, border, part.empty() ? border : part.quantile(far_share)};
-    }
-    static Side below(const ValueDistribution& all, double border) {
-        const auto part = all.between(all.lowest(), std::nextafter(border, -INFINITY));
-        return {part, border, part.empty() ? border : part.quantile(1 - far_share)};
-    }
-
-    bool empty() const { return values.empty() || end == border; }
-
-    // Returns the share of the side's values that lie farther out than `value`.
-    double rest(double value) const {
-        return end > border ? 1 - values.share_up_to(value) : values.share_below(value);
-    }
-    // Returns the mean place by value and by rank: colours change faster at frequent values.
-    double place(double value) const {
-        const double by_value = std::clamp((value - border) / (end - border), 0.0, 1.0);
-        return (by_value + (1 - rest(value))) / 2;
-    }
-    double value_at(double place_wanted) const {
-        double near = border, far = end;
-        for (int i = 0; i < 60; ++i) {
-            const double middle = near + (far - near) / 2;
-            (place(middle) < place_wanted ? near : far) = middle;
-        }
-        return far;
-    }
-    double extinction(double value) const {
-        return std::pow(std::max(rest(value), least_rest), -rarity);
-    }
-};
-
-// Returns the points of a side from `border` to `end`. `start`: the extinction at the border.
-std::vector<TransferKnot> points_of(const Side& side, std::span<const glm::dvec3> colors,
-                                    double start) {
-    std::vector<TransferKnot> points{{side.border, {colors.front(), start}}};
-    const auto add = [&](double value, double place) {
-        if (value != points.back().value)
-            points.push_back({value, {color_at(colors, place), side.extinction(value)}});
-    };
-    add(side.value_at(rise), 0);
-    for (int i = 1; i < steps; ++i) {
-        const double place = rise + (1 - rise) * i / steps;
-        add(side.value_at(place), static_cast<double>(i) / steps);
-    }
-    add(side.end, 1);
-    return points;
-}
+// Colours in linear light: of data with a single value, and of a range without values.
+constexpr glm::dvec3 only_color{.86, .45, .10}, low_color{.035, .10, .30},
+    high_color{.92, .80, .55};
 
 TransferFunction normalized(std::vector<TransferKnot> points) {
     double largest = 0;
@@ -113,64 +34,23 @@ TransferFunction normalized(std::vector<TransferKnot> points) {
     return TransferFunction::linear(points);
 }
 
-std::vector<TransferKnot> joined(const Side& down, const Side& up, double start) {
-    const bool both = !down.empty() && !up.empty();
-    std::vector<TransferKnot> points;
-    if (!down.empty()) {
-        points = points_of(down, both ? std::span<const glm::dvec3>(downwards) : upwards, start);
-        std::ranges::reverse(points);
-    }
-    if (!up.empty()) {
-        const auto more =
-            points_of(up, both ? std::span<const glm::dvec3>(beyond) : upwards, start);
-        points.insert(points.end(), more.begin(), more.end());
-    }
-    return points;
-}
-
 AutomaticTransfer one_value(double value) {
-    return {TransferFunction::linear({{value, {upwards[3], 1}}}),
+    return {TransferFunction::linear({{value, {only_color, 1}}}),
             fmt::format("all values are {:.9g}, which shows everywhere", value)};
 }
 
-AutomaticTransfer within(const ValueDistribution& values, const ValueRange& range) {
-    const Side side{values.between(range.lo, range.hi), range.lo, range.hi};
-    std::vector<TransferKnot> points{{range.lo, {upwards.front(), 0}},
-                                     {range.hi, {upwards.back(), 1}}};
-    if (!side.empty()) points = points_of(side, upwards, 0);
-    return {normalized(std::move(points)),
-            fmt::format("values from {} to {} show, as wished", range.lo, range.hi)};
+AutomaticTransfer with_surfaces(const ChosenSurfaces& chosen) {
+    AutomaticTransfer result{TransferFunction::linear(chosen.points), chosen.reason};
+    result.per_world_unit = true;
+    return result;
 }
 
-// Shows values beyond the common ones, on one or both sides. A side that would form a shell around
-// the measured data, next to padding, shows nothing if the other side shows.
-AutomaticTransfer beyond_common(const Padding& padding, const CommonValues& common) {
-    const ValueDistribution& values = padding.rest;
-    Side down = Side::below(values, common.lo), up = Side::above(values, common.hi);
-    const double below = values.share_below(common.lo), above = 1 - values.share_up_to(common.hi);
-    if (below < least_side * (below + above)) down = Side{{}, common.lo, common.lo};
-    if (above < least_side * (below + above)) up = Side{{}, common.hi, common.hi};
-    if (common.background && !down.empty() && !up.empty()) {
-        if (padding.shell_below(common.lo)) {
-            down = Side{{}, common.lo, common.lo};
-        } else if (padding.shell_above(common.hi)) {
-            up = Side{{}, common.hi, common.hi};
-        }
-    }
-    const auto points = joined(down, up, common.background ? 0 : faint);
-    const std::string hidden = common.background ? "are transparent" : "are faint";
-    const auto text = [&](double value) {
-        return number_text(value, fineness_of(values.lowest(), values.highest()));
-    };
-    std::string shown;
-    if (!down.empty()) shown = "down to " + text(down.end);
-    if (!up.empty()) shown += (shown.empty() ? "up to " : " and up to ") + text(up.end);
-    return {
-        normalized(points),
-        fmt::format("values from {} to {}, {:.3g} % of the field, {}; beyond, {}, the rarer "
-                    "the denser",
-                    text(common.lo), text(common.hi),
-                    100 * (1 - padding.share) * values.share(common.lo, common.hi), hidden, shown)};
+AutomaticTransfer within(const ValueDistribution& values, const ValueRange& range,
+                         bool whole_numbers, const TransferSubject& subject) {
+    const ChosenSurfaces chosen = choose_surfaces_within(values, range, whole_numbers, subject);
+    if (!chosen.points.empty()) return with_surfaces(chosen);
+    return {normalized({{range.lo, {low_color, 0}}, {range.hi, {high_color, 1}}}),
+            fmt::format("values from {} to {} show, as wished", range.lo, range.hi)};
 }
 
 // Return the function made transparent below (shown_above) or above (shown_below) a value.
@@ -301,19 +181,22 @@ AutomaticTransfer label_transfer(const ValueDistribution& values, const VolumeLa
                     transparent, 100 * share_of(background))};
 }
 
-AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers) {
+AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers,
+                                const TransferSubject& subject) {
     const ValueDistribution& values = padding.rest;
     if (values.distinct() < 2) return one_value(values.empty() ? 0 : values.lowest());
     if (whole_numbers && values.distinct() <= most_labels && values.distinct() > 2)
         return label_transfer(values, nullptr);
-    return beyond_common(padding, find_common_values(values, whole_numbers));
+    const ChosenSurfaces chosen = choose_surfaces(padding, whole_numbers, subject);
+    return chosen.points.empty() ? one_value(values.lowest()) : with_surfaces(chosen);
 }
 
 }  // namespace
 
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
                                            const TransferAdjustments& adjustments,
-                                           double least_padding_share, const VolumeLabels* labels) {
+                                           double least_padding_share, const VolumeLabels* labels,
+                                           const TransferSubject& subject) {
     if (labels != nullptr && values.distinct() > 1 && !adjustments.range) {
         AutomaticTransfer chosen = label_transfer(values, labels);
         TransferFunction& palette = chosen.transfer_function;
@@ -321,8 +204,9 @@ AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool
         return chosen;
     }
     const Padding padding = find_padding(values, whole_numbers, least_padding_share);
-    AutomaticTransfer chosen = adjustments.range ? within(values, *adjustments.range)
-                                                 : in_own_colors(padding, whole_numbers);
+    AutomaticTransfer chosen = adjustments.range
+                                   ? within(values, *adjustments.range, whole_numbers, subject)
+                                   : in_own_colors(padding, whole_numbers, subject);
     TransferFunction& function = chosen.transfer_function;
     if (adjustments.colormap) function = recolored(function, *adjustments.colormap);
     if (adjustments.range) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "choice/surfaces.h"
 #include "choice/value_distribution.h"
 #include "lamina/transfer_function.h"
 #include "lamina/volume.h"
@@ -20,19 +21,21 @@ struct TransferAdjustments {
 
 // A transfer function that was chosen from the data.
 struct AutomaticTransfer {
-    // Extinctions are relative, the largest is 1: choose() scales them for the view.
-    TransferFunction transfer_function;
-    std::string reason;     // for people: which values show, and which do not
+    TransferFunction transfer_function = TransferFunction::linear({TransferKnot{}});
+    std::string reason{};   // for people: which values show, and which do not
     std::string padding{};  // for people: which values are padding; empty if none are
+    // False: extinctions are relative, the largest is 1, and choose() scales them for the data.
+    bool per_world_unit = false;
 };
 
-// Chooses a transfer function from values alone (docs/first-picture.md): the rarer values are, the
-// denser and brighter; common ones are transparent. `least_padding_share`: see find_padding().
+// Chooses a transfer function (docs/first-picture.md): surfaces of materials or of rare values
+// show, common values and noise are transparent. `least_padding_share`: see find_padding().
 // `labels`: what the file says of labels, if all values are labels; each then has a colour.
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
                                            const TransferAdjustments& adjustments = {},
                                            double least_padding_share = least_padding,
-                                           const VolumeLabels* labels = nullptr);
+                                           const VolumeLabels* labels = nullptr,
+                                           const TransferSubject& subject = {});
 
 // Returns the function with its points moved in proportion to a range, lo < hi. Throws Error if it
 // has a single point, or if three points would get one value.

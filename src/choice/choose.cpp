@@ -6,9 +6,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 #include "base/client.h"
 #include "base/error.h"
+#include "choice/automatic_light.h"
 #include "choice/value_distribution.h"
 #include "choice/words.h"
 #include "image/coded_image.h"
@@ -18,18 +20,23 @@ namespace {
 
 constexpr double median_opacity = .9;  // median of the rays that meet something visible
 constexpr double seen_share = 1e-3;    // of the largest extinction; fitted cameras ignore less
+constexpr double seen_depth = .01;     // over the diagonal of the data, likewise
 
 double largest_extinction(const TransferFunction& transfer_function) {
     const auto knots = transfer_function.knots();
     return transfer_function.max_extinction(knots.front().value, knots.back().value);
 }
 
-std::vector<glm::dvec3> points_to_fit(const Scene& scene, const Field& field) {
+// Returns points around what shows and the clip keeps. `per_world_unit`: extinctions are absolute.
+std::vector<glm::dvec3> points_to_fit(const Scene& scene, const Field& field, bool per_world_unit) {
     const TransferFunction& transfer_function = *scene.transfer_function;
-    std::vector<glm::dvec3> points = field.shown_points(
-        transfer_function, seen_share * largest_extinction(transfer_function), scene.clip);
-    if (!points.empty()) return points;
     const auto corners = field.corners();
+    const double diagonal = glm::distance(corners.front(), corners.back());
+    const double least = seen_share * largest_extinction(transfer_function);
+    std::vector<glm::dvec3> points = field.shown_points(
+        transfer_function, per_world_unit ? std::min(least, seen_depth / diagonal) : least,
+        scene.clip);
+    if (!points.empty()) return points;
     return {corners.begin(), corners.end()};
 }
 
@@ -54,6 +61,7 @@ std::string name_of_data(const Scene& scene) {
 
 // Rays with less than this share of the largest optical depth of all rays are ignored as noise.
 constexpr double least_depth = 0.002;
+constexpr int square_side = 512;  // pixels of the picture in which depths are measured
 
 // Divides extinctions by the diagonal of the data's box, so that float32 depths stay in range.
 TransferFunction per_diagonal(const TransferFunction& transfer_function, const Field& field) {
@@ -61,16 +69,41 @@ TransferFunction per_diagonal(const TransferFunction& transfer_function, const F
     return transfer_function.attenuated(1 / glm::distance(corners.front(), corners.back()));
 }
 
-// Returns the factor on extinction that gives median_opacity; 1 if no ray meets anything.
-double density_of(const Scene& scene, const Field& field) {
+// Returns the median optical depth of rays through what shows, as seen all over in a square picture
+// of these points: so it does not depend on the picture that is drawn. 0 if no ray meets anything.
+double median_depth(Scene scene, const TransferFunction& transfer_function,
+                    std::span<const glm::dvec3> points, const Field& field) {
+    scene.transfer_function = transfer_function;
+    scene.width = scene.height = square_side;
+    const Orientation from = orientation_of(field.axes(), field.corners());
+    scene.camera =
+        fitted_camera(points, from.front, turn_to(ViewSide::iso, from), square_side, square_side);
     std::vector<double> depths = field.optical_depths(scene);
-    if (depths.empty()) return 1;
+    if (depths.empty()) return 0;
     const double least = least_depth * *std::ranges::max_element(depths);
     std::erase_if(depths, [&](double depth) { return !(depth > least); });
-    if (depths.empty()) return 1;
+    if (depths.empty()) return 0;
     const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
     std::ranges::nth_element(depths, middle);
-    return -std::log1p(-median_opacity) / *middle;
+    return *middle;
+}
+
+// Scales relative extinctions for median_opacity; not at all if no ray meets anything.
+void take_density(const Field& field, Scene& scene) {
+    scene.transfer_function = per_diagonal(*scene.transfer_function, field);
+    const double depth =
+        median_depth(scene, *scene.transfer_function, points_to_fit(scene, field, false), field);
+    if (depth > 0)
+        scene.transfer_function =
+            scene.transfer_function->attenuated(-std::log1p(-median_opacity) / depth);
+}
+
+// Returns the world length of the median ray through the data.
+double median_path(const Scene& scene, const Field& field) {
+    const auto corners = field.corners();
+    const double diagonal = glm::distance(corners.front(), corners.back());
+    const auto even = TransferFunction::linear({{field.range().lo, {glm::dvec3(0), 1 / diagonal}}});
+    return diagonal * median_depth(scene, even, corners, field);
 }
 
 // Returns the transfer function with its colours as display values.
@@ -83,32 +116,68 @@ TransferFunction displayed(const TransferFunction& transfer_function) {
     return TransferFunction::linear(knots);
 }
 
+AutomaticTransfer chosen_function(const Scene& scene, const TransferSubject& subject,
+                                  const ValueDistribution& values,
+                                  const TransferAdjustments& adjustments) {
+    const Field& field = *subject.field;
+    AutomaticTransfer chosen =
+        choose_transfer_function(values, field.whole_numbers(), adjustments,
+                                 field.least_padding_share(), field.labels(), subject);
+    if (scene.color_space == ImageColorSpace::display && !adjustments.colormap)
+        chosen.transfer_function = displayed(chosen.transfer_function);
+    if (!chosen.padding.empty()) warn(fmt::format("{}: {}", name_of_data(scene), chosen.padding));
+    return chosen;
+}
+
+void change(TransferFunction& function, const TransferAdjustments& adjustments) {
+    if (adjustments.range) function = stretched(function, *adjustments.range);
+    if (adjustments.colormap) function = recolored(function, *adjustments.colormap);
+}
+
 // Gradients below this share of (range of values / spacing) count as noise.
 constexpr double smallest_gradient_share = .01;
 
+bool leaves_light_open(const Scene& scene) {
+    return scene.lighting && scene.lighting->is_automatic();
+}
+
 bool leaves_gradient_open(const Scene& scene) {
-    return scene.lighting && scene.lighting->smallest_gradient.is_automatic();
+    const Lighting* const given = given_lighting(scene.lighting);
+    return given != nullptr && given->smallest_gradient.is_automatic();
 }
 
-// Returns the range of the measured values, without padding.
-ValueRange range_without_padding(const Field& field) {
-    const Padding padding =
-        find_padding(field.distribution(), field.whole_numbers(), field.least_padding_share());
-    if (padding.values.empty()) return field.range();
-    return {padding.rest.lowest(), padding.rest.highest()};
-}
-
-void choose_smallest_gradient(Choices& choices, const Field& field) {
-    Scene& scene = choices.scene;
-    if (!leaves_gradient_open(scene)) return;
-    const ValueRange range = range_without_padding(field);
+// Returns the length of gradients below which they count as noise.
+double smallest_gradient_of(const Padding& padding, const Field& field) {
+    // The ends of the range may lie between the places that a distribution counts.
+    const ValueRange range = padding.values.empty()
+                                 ? field.range()
+                                 : ValueRange{padding.rest.lowest(), padding.rest.highest()};
     const double height = range.empty() ? 0 : range.hi - range.lo;
     // Data of a single value have no gradient, so the number does not matter.
     const double chosen = height > 0 ? smallest_gradient_share * height / field.spacing() : 1;
-    scene.lighting->smallest_gradient =
-        std::clamp(chosen, Lighting::least_gradient, Lighting::largest_gradient);
-    choices.reasons.push_back(fmt::format("lighting: smallest gradient {:.4g} per unit of length",
-                                          *scene.lighting->smallest_gradient));
+    return std::clamp(chosen, Lighting::least_gradient, Lighting::largest_gradient);
+}
+
+// Chooses whether the scene is lit, and the smallest gradient that is, if they are open.
+void choose_lighting(Choices& choices, const TransferSubject& subject,
+                     const ValueDistribution& values) {
+    const Field& field = *subject.field;
+    Scene& scene = choices.scene;
+    const bool open = leaves_light_open(scene);
+    if (!open && !leaves_gradient_open(scene)) return;
+    const Padding padding =
+        find_padding(values, field.whole_numbers(), field.least_padding_share());
+    const double smallest = smallest_gradient_of(padding, field);
+    if (open) {
+        const LightChoice light = choose_light(scene, subject, padding, smallest);
+        choices.reasons.push_back("lighting: " + light.reason);
+        scene.lighting.reset();
+        if (!light.lit) return;
+        scene.lighting = Lighting{};
+    }
+    (*scene.lighting)->smallest_gradient = smallest;
+    choices.reasons.push_back(
+        fmt::format("lighting: smallest gradient {:.4g} per unit of length", smallest));
 }
 
 // Constants of the automatic camera (docs/first-picture.md). Angles are in degrees.
@@ -160,7 +229,7 @@ glm::dvec3 middle_of(std::span<const glm::dvec3> points) {
 
 bool leaves_something_open(const Scene& scene) {
     return scene.transfer_function.is_automatic() || scene.camera.is_automatic() ||
-           leaves_gradient_open(scene);
+           leaves_gradient_open(scene) || leaves_light_open(scene);
 }
 
 namespace {
@@ -185,8 +254,8 @@ std::string take_opacity(const Adjustments& adjustments, TransferFunction& trans
 // lights and clips were asked for.
 void add_lights(const Adjustments& adjustments, Choices& choices) {
     Scene& scene = choices.scene;
-    if (adjustments.light && scene.lighting) {
-        scene.lighting->lights = lights_of(*adjustments.light, *scene.camera);
+    if (adjustments.light && given_lighting(scene.lighting) != nullptr) {
+        (*scene.lighting)->lights = lights_of(*adjustments.light, *scene.camera);
         choices.reasons.push_back(
             fmt::format("lighting: {}, as asked", name_of(*adjustments.light)));
     }
@@ -198,24 +267,35 @@ void add_lights(const Adjustments& adjustments, Choices& choices) {
 
 // Chooses the camera of a scene whose transfer function is known. Returns why it is upright so, for
 // people.
-std::string choose_camera(const Adjustments& adjustments, const Field& field, Scene& scene) {
+std::string choose_camera(const Adjustments& adjustments, const Field& field, bool per_world_unit,
+                          Scene& scene) {
     const Orientation from = orientation_of(field.axes(), field.corners(), adjustments.up);
     ViewTurn turn = turn_to(adjustments.side.value_or(ViewSide::iso), from);
     turn.azimuth += adjustments.turn.azimuth;
     turn.elevation += adjustments.turn.elevation;
     const PictureMargins margins =
         annotation_margins(scene, annotated_data(field, scene.annotations.labels.has_value()));
-    scene.camera = fitted_camera(points_to_fit(scene, field), from.front, turn, scene.width,
-                                 scene.height, adjustments.all_around, margins);
+    scene.camera = fitted_camera(points_to_fit(scene, field, per_world_unit), from.front, turn,
+                                 scene.width, scene.height, adjustments.all_around, margins);
     if (!adjustments.side) return from.reason;
     return fmt::format("{}; view: {}", from.reason, name_of(*adjustments.side));
 }
 
-// Chooses all but the lights.
+// Chooses all but the directions of lights that were asked for.
 Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustments) {
     Choices choices{std::move(asked), {}};
     Scene& scene = choices.scene;
-    choose_smallest_gradient(choices, field);
+    const bool lights = leaves_light_open(scene);
+    const ValueDistribution values =
+        scene.transfer_function.is_automatic() || lights || leaves_gradient_open(scene)
+            ? field.distribution()
+            : ValueDistribution();
+    std::optional<double> path;
+    const TransferSubject subject{&field, [&] {
+                                      if (!path) path = median_path(scene, field);
+                                      return *path;
+                                  }};
+    if (!lights) choose_lighting(choices, subject, values);
     if (!leaves_something_open(scene) && !adjustments.transfer_function() && !adjustments.camera())
         return choices;
     if (field.range().empty()) {
@@ -228,36 +308,27 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
     }
     const bool chooses_function = scene.transfer_function.is_automatic();
     const bool chooses_camera = scene.camera.is_automatic() || adjustments.up || adjustments.side;
-    std::string reason;
+    AutomaticTransfer chosen;
     if (chooses_function) {
-        AutomaticTransfer chosen = choose_transfer_function(
-            field.distribution(), field.whole_numbers(), adjustments.transfer,
-            field.least_padding_share(), field.labels());
-        scene.transfer_function = std::move(chosen.transfer_function);
-        if (scene.color_space == ImageColorSpace::display && !adjustments.transfer.colormap)
-            scene.transfer_function = displayed(*scene.transfer_function);
-        reason = std::move(chosen.reason);
-        if (!chosen.padding.empty())
-            warn(fmt::format("{}: {}", name_of_data(scene), chosen.padding));
+        chosen = chosen_function(scene, subject, values, adjustments.transfer);
+        scene.transfer_function = chosen.transfer_function;
     } else {
-        TransferFunction& changed = *scene.transfer_function;
-        if (adjustments.transfer.range) changed = stretched(changed, *adjustments.transfer.range);
-        if (adjustments.transfer.colormap)
-            changed = recolored(changed, *adjustments.transfer.colormap);
+        change(*scene.transfer_function, adjustments.transfer);
     }
-    if (adjustments.opacity) reason = take_opacity(adjustments, *scene.transfer_function);
+    if (adjustments.opacity) {
+        chosen.reason = take_opacity(adjustments, *scene.transfer_function);
+        chosen.per_world_unit = false;
+    }
     std::string orientation;
     if (chooses_camera)
-        orientation = choose_camera(adjustments, field, scene);
+        orientation = choose_camera(adjustments, field, chosen.per_world_unit, scene);
     else
         scene.camera = turned(*scene.camera, adjustments.turn);
     if (chooses_function || adjustments.opacity) {
-        scene.transfer_function = per_diagonal(*scene.transfer_function, field);
-        const double density = density_of(scene, field);
-        scene.transfer_function = scene.transfer_function->attenuated(density);
-        choices.reasons.push_back(
-            fmt::format("transfer function: {}; extinction up to {:.4g} per unit of length", reason,
-                        adjustments.density * largest_extinction(*scene.transfer_function)));
+        if (!chosen.per_world_unit) take_density(field, scene);
+        choices.reasons.push_back(fmt::format(
+            "transfer function: {}; extinction up to {:.4g} per unit of length", chosen.reason,
+            adjustments.density * largest_extinction(*scene.transfer_function)));
     }
     // linear() drops points on straight lines, so the function equals one read from a scene file.
     const TransferFunction dense = scene.transfer_function->attenuated(adjustments.density);
@@ -265,6 +336,7 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
         TransferFunction::linear({dense.knots().begin(), dense.knots().end()});
     scene.camera = zoomed(*scene.camera, adjustments.zoom);
     if (chooses_camera) choices.reasons.push_back(camera_text(*scene.camera, orientation));
+    if (lights) choose_lighting(choices, subject, values);
     return choices;
 }
 

@@ -10,6 +10,7 @@
 
 #include "annotation/annotation_layer.h"
 #include "choice/value_distribution.h"
+#include "choice/variation.h"
 #include "lamina/scene.h"
 #include "lamina/volume.h"
 #include "mesh/tet_mesh.h"
@@ -38,6 +39,12 @@ class Field {
     virtual double least_padding_share() const = 0;
     // Returns the distribution of the finite values by volume. Large data are sampled evenly.
     virtual ValueDistribution distribution() const = 0;
+
+    // Measures how the field varies, in the bins of an empty Variation (variation_of()).
+    virtual Variation variation(const ValueRange& measured, const Variation& bins) const = 0;
+    // Tells whether the data end at the surface of a thing, as meshes do: then a faint outline of
+    // everything shows where things are.
+    virtual bool ends_at_surface() const { return false; }
 
     // Returns points whose convex hull holds all extinction above `least` >= 0 that the clip keeps,
     // and little more; empty if there is none.
@@ -69,6 +76,9 @@ class VolumeField : public Field {
     const VolumeLabels* labels() const override;
     double least_padding_share() const override { return least_padding; }
     ValueDistribution distribution() const override;
+    Variation variation(const ValueRange& measured, const Variation& bins) const override {
+        return variation_of(volume_, measured, bins);
+    }
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function, double least,
                                          const Clip& clip = {}) const override;
     std::array<glm::dvec3, 8> corners() const override;
@@ -96,6 +106,10 @@ class MeshField : public Field {
     // Tets count by their volume. A tet with a corner far from all other values (find_markers())
     // counts by its corners: values interpolated inside it were not measured.
     ValueDistribution distribution() const override;
+    Variation variation(const ValueRange& measured, const Variation& bins) const override {
+        return variation_of(mesh_, measured, bins);
+    }
+    bool ends_at_surface() const override { return true; }
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function, double least,
                                          const Clip& clip = {}) const override;
     std::array<glm::dvec3, 8> corners() const override;

@@ -233,7 +233,7 @@ void adjust_scene(Scene& scene, const Adjustments& adjustments) {
     if (planes.size() > Clip::most_planes)
         fail("clip: found {} planes, expected at most {}", planes.size(), Clip::most_planes);
     if (adjustments.clip.box) scene.clip.box = adjustments.clip.box;
-    if (adjustments.light && !scene.lighting) scene.lighting = Lighting{};
+    if (adjustments.light && given_lighting(scene.lighting) == nullptr) scene.lighting = Lighting{};
 }
 
 std::vector<Light> lights_of(LightWord word, const Camera& camera) {

@@ -232,7 +232,7 @@ class PlainRay {
         : scene_(scene) {
         for (const TransferKnot& knot : scene.transfer_function->knots())
             brightest_ = std::max(brightest_, largest(knot.optics.color));
-        if (scene.lighting) take(*scene.lighting, -glm::normalize(ray.direction));
+        if (scene.lighting) take(**scene.lighting, -glm::normalize(ray.direction));
         for (const Segment& segment : segments) {
             const std::vector<double> ends = cuts(segment.field);
             for (std::size_t i = 1; i < ends.size(); ++i) add(segment, ends[i - 1], ends[i], 0);
@@ -284,7 +284,7 @@ class PlainRay {
         const glm::dvec3 c(optics(segment, t)), gradient(segment.field.at(t));
         const double steepness = glm::length(gradient);
         if (!scene_.lighting || steepness == 0) return c;
-        const Lighting& lighting = *scene_.lighting;
+        const Lighting& lighting = **scene_.lighting;
         const double w = 1 / (1 + std::pow(*lighting.smallest_gradient / steepness, 2));
         glm::dvec3 lit = lighting.ambient * c;
         for (const auto& [light, halfway, shone] : lights_) {

@@ -138,14 +138,14 @@ void check_exact(const Scene& scene, const Facts& facts, int least,
 }  // namespace
 
 LightPlan plan_light(const Scene& scene, double max_color, bool cuts_rays) {
-    if (!scene.lighting || !cuts_rays) return {scene.lighting};
-    return {scene.lighting, most_bend(scene, max_color), light_share * scene.max_error};
+    if (!scene.lighting || !cuts_rays) return {copied_lighting(scene.lighting)};
+    return {copied_lighting(scene.lighting), most_bend(scene, max_color), light_share * scene.max_error};
 }
 
 // Returns the bound of docs/numerics.md, equation (10.6).
 double light_iterations(const Scene& scene, double max_color) {
     if (!scene.lighting) return 0;
-    const RayLights lights(*scene.lighting, anywhere);
+    const RayLights lights(**scene.lighting, anywhere);
     const double most = 4 * std::max(lights.largest_effect(1), 1.0) * 2.52 * lights.effect_span() /
                         most_bend(scene, max_color);
     return (3 * 8 + 10) * most;
@@ -153,11 +153,14 @@ double light_iterations(const Scene& scene, double max_color) {
 
 double largest_drawn_color(const Scene& scene, double max_color) {
     if (!scene.lighting) return max_color;
-    return RayLights(*scene.lighting, anywhere).brightest_lit(max_color);
+    return RayLights(**scene.lighting, anywhere).brightest_lit(max_color);
 }
 
 void check_lit_slicing(const Scene& scene) {
-    if (!scene.lighting || scene.lighting->smallest_gradient.is_given()) return;
+    if (!scene.lighting) return;
+    if (scene.lighting->is_automatic())
+        fail("{}: lighting: has not been chosen from the data", scene.file.string());
+    if ((*scene.lighting)->smallest_gradient.is_given()) return;
     fail("{}: lighting.smallest_gradient: has not been chosen from the data", scene.file.string());
 }
 

@@ -82,7 +82,7 @@ struct MostLight {
 
 MostLight most_light(const Scene& scene) {
     if (!scene.lighting) return {};
-    const RayLights lights(*scene.lighting, glm::dvec3(0, 0, 1));
+    const RayLights lights(**scene.lighting, glm::dvec3(0, 0, 1));
     const double highlight = lights.largest_effect(0);
     return {lights.largest_effect(1) - highlight, highlight};
 }

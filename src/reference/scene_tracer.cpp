@@ -24,7 +24,7 @@ View view_of(const Scene& scene) {
 }
 
 TraceOptions options_of(const Scene& scene) {
-    return {scene.trace_tolerance, scene.lighting, half_spaces(scene.clip)};
+    return {scene.trace_tolerance, copied_lighting(scene.lighting), half_spaces(scene.clip)};
 }
 
 // A segment of the ray, with the optical depths in front of its ends.

@@ -50,10 +50,12 @@ void settle_for_voxels(Scene& scene) {
     }
     scene.slice.classification = Classification::exact;
     if (!scene.lighting) return;
+    const bool asked_for = scene.lighting->is_given();
+    scene.lighting.reset();
+    if (!asked_for) return;
     warn(
         "lighting: nothing is lit, because with \"lookup\": \"nearest\" the field is constant in "
         "each voxel and has no gradient");
-    scene.lighting.reset();
 }
 
 }  // namespace

@@ -237,8 +237,9 @@ std::optional<LightingMistake> mistake_in(const Lighting& lighting) {
 }
 
 void check_lighting(const Scene& scene) {
-    if (!scene.lighting) return;
-    if (const auto mistake = mistake_in(*scene.lighting))
+    const Lighting* const lighting = given_lighting(scene.lighting);
+    if (lighting == nullptr) return;
+    if (const auto mistake = mistake_in(*lighting))
         fail("{}: lighting.{}: {}", scene.file.string(), mistake->key, mistake->message);
 }
 

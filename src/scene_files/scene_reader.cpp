@@ -42,7 +42,10 @@ nlohmann::json scene_document(const std::filesystem::path& file, const VolumeReq
     const FileKind kind = request.raw ? FileKind::volume : kind_of_file(file);
     if (kind == FileKind::scene) return load_json(file);
     const std::string path = std::filesystem::absolute(file).string();
-    nlohmann::json document{{"version", 1}, {"nan", "transparent"}};
+    nlohmann::json document{{"version", 1},
+                            {"nan", "transparent"},
+                            {"lighting", "auto"},
+                            {"image", {{"background", {1, 1, 1}}}}};
     if (kind == FileKind::volume)
         document["volume"] = volume_selection_json(path, request);
     else
@@ -140,7 +143,7 @@ void set_key(nlohmann::json& document, const std::string& key, const std::string
             node = &(*node)[std::stoul(part)];
         } else if (node->is_object()) {
             node = &(*node)[part];
-        } else if (node->is_null()) {
+        } else if (node->is_null() || *node == "auto") {
             *node = nlohmann::json::object();
             node = &(*node)[part];
         } else {

@@ -98,8 +98,6 @@ void lighting_keys(KeyTable<Lighting>& keys) {
 void add_lighting(KeyTable<Scene>& scene) {
     Form<Lighting> form = object_form(table_of<lighting_keys>);
     form.read = [](JsonReader& reader, const std::string& key) {
-        if (!reader.value(key).is_object())
-            reader.reject(key, "an object {...} or true, or false for colours as they are");
         JsonReader object = reader.object(key);
         Lighting lighting;
         table_of<lighting_keys>().read(object, lighting);
@@ -107,16 +105,19 @@ void add_lighting(KeyTable<Scene>& scene) {
             object.fail_at(mistake->key, mistake->message);
         return lighting;
     };
-    Form<std::optional<Lighting>> lit = optional_form(form);
-    lit.read = [read = form.read](JsonReader& reader, const std::string& key) {
+    Form<std::optional<Auto<Lighting>>> lit = optional_form(automatic_form(
+        form, &nlohmann::json::is_object,
+        "an object {...}, true, \"auto\", or false for colours as they are"));
+    lit.read = [read = lit.read](JsonReader& reader, const std::string& key) {
         const nlohmann::json& value = reader.value(key);
-        if (!value.is_boolean()) return std::optional(read(reader, key));
-        return value.get<bool>() ? std::optional(Lighting{}) : std::nullopt;
+        if (!value.is_boolean()) return read(reader, key);
+        return value.get<bool>() ? std::optional<Auto<Lighting>>(Lighting{}) : std::nullopt;
     };
-    lit.schema = {{"oneOf", KeyJson::array({{{"type", "boolean"}}, form.schema})}};
+    lit.schema["oneOf"].insert(lit.schema["oneOf"].begin(), {{"type", "boolean"}});
     scene.key("lighting", &Scene::lighting, lit,
               "Emission is lit by the gradient of the scalar, on both of its sides; true: with all "
-              "defaults; absent or false: colours are shown as they are.");
+              "defaults; auto: if that shows surfaces of the data; absent or false: colours are "
+              "shown as they are.");
 }
 
 void image_keys(KeyTable<Scene>& keys) {

@@ -97,7 +97,7 @@ class SlabTrials {
                  {.tolerance =
                       std::clamp(TrialLimits::tracer_share * scene.max_error / 255,
                                  TrialLimits::finest_tolerance, TrialLimits::coarsest_tolerance),
-                  .lighting = scene.lighting,
+                  .lighting = copied_lighting(scene.lighting),
                   .clip = half_spaces(scene.clip)}) {}
 
     // Searches from `slabs` on. Returns all trials in order.

@@ -167,7 +167,7 @@ std::string picture_key(const Scene& scene) {
         add(hash, half.point);
         add(hash, half.normal);
     }
-    if (scene.lighting) add(hash, *scene.lighting);
+    if (const Lighting* const given = given_lighting(scene.lighting)) add(hash, *given);
     return hash.hex();
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
 
 namespace lamina {
 namespace {
@@ -22,17 +23,15 @@ double largest(const TransferFunction& function) {
     return most;
 }
 
-TEST(AutomaticTransfer, BackgroundIsTransparentAndTheRareIsDense) {
+// Without a field, slopes are unknown. The outermost values are the densest; inside of a peak
+// extinction may be less than at its top.
+TEST(AutomaticTransfer, BackgroundIsTransparentAndTheRarestIsTheDensest) {
     const AutomaticTransfer chosen = choose_transfer_function(scan(), true);
     const TransferFunction& function = chosen.transfer_function;
     EXPECT_EQ(function.at(0).extinction, 0);
-    EXPECT_EQ(largest(function), 1);
-    double before = 0;
-    for (int value = 0; value <= 200; value += 10) {
-        EXPECT_GE(function.at(value).extinction, before) << value;
-        before = function.at(value).extinction;
-    }
-    EXPECT_GT(function.at(200).extinction, 10 * function.at(40).extinction);
+    EXPECT_TRUE(chosen.per_world_unit);
+    EXPECT_EQ(function.at(200).extinction, largest(function));
+    EXPECT_GT(function.at(200).extinction, 5 * function.at(20).extinction);
     EXPECT_NE(chosen.reason.find("transparent"), std::string::npos) << chosen.reason;
 }
 
@@ -124,7 +123,8 @@ TEST(AutomaticTransfer, ShowsTheGivenRange) {
     EXPECT_EQ(function.knots().front().value, 50);
     EXPECT_EQ(function.knots().back().value, 150);
     EXPECT_EQ(function.at(50).extinction, 0);
-    EXPECT_EQ(function.at(200).extinction, 1);
+    EXPECT_EQ(function.at(200), function.at(150));
+    EXPECT_EQ(function.at(200).extinction, largest(function));
     const auto empty = choose_transfer_function(scan(), true, {.range = ValueRange{300, 400}});
     // A ramp, because the range has no values.
     EXPECT_EQ(empty.transfer_function.at(400).extinction, 1);

@@ -58,7 +58,8 @@ struct Look {
     // Share of the covered pixels that are full white in some channel: .9956 or more, which is
     // full_light in render/warnings.cpp.
     double saturated = 0;
-    // Number of distinct hues (or grey levels) that each cover at least 1 % of the shown pixels.
+    // Number of distinct colours, by hue and brightness, that each cover at least 1 % of the shown
+    // pixels. One material has one hue, and light makes it brighter and darker.
     std::size_t kinds = 0;
 
     explicit Look(const Image& picture) {
@@ -70,7 +71,7 @@ struct Look {
             const float most = std::max({p[0], p[1], p[2]}), least = std::min({p[0], p[1], p[2]});
             saturated += most >= .9956F;
             const auto light = static_cast<int>(8 * std::sqrt(std::min(most, 1.F)));
-            ++found[most - least > most / 4 ? 100 * (1 + hue(p, most, most - least)) : light];
+            ++found[light + (most - least > most / 4 ? 100 * (1 + hue(p, most, most - least)) : 0)];
         }
         for (const auto& [kind, count] : found) kinds += count >= covered / 100;
         saturated /= std::max(covered, 1.);

@@ -288,12 +288,12 @@ TEST(Session, TracesALitSceneAndChoosesItsSmallestGradient) {
     Session unlit(scene, volume, cpu_session);
     scene.lighting = Lighting{};
     Session session(scene, volume, cpu_session);
-    EXPECT_TRUE(session.scene().lighting->smallest_gradient.is_automatic());
-    EXPECT_NEAR(*session.resolved_scene().lighting->smallest_gradient, .01, 1e-5);
+    EXPECT_TRUE((*session.scene().lighting)->smallest_gradient.is_automatic());
+    EXPECT_NEAR(*(*session.resolved_scene().lighting)->smallest_gradient, .01, 1e-5);
     const auto plain = unlit.trace(), lit = session.trace();
     EXPECT_GT(error_of(session.draw(), plain).linf, 20);
     for (std::size_t i = 3; i < plain.rgba.size(); i += 4) EXPECT_EQ(lit.rgba[i], plain.rgba[i]);
-    scene.lighting->power = NAN;
+    (*scene.lighting)->power = NAN;
     expect_error([&] { session.set_scene(scene); }, {"lighting.power: found nan"});
     expect_error([&] { Session(scene, volume, cpu_session); }, {"lighting.power: found nan"});
 }

@@ -32,7 +32,8 @@ Scene lit_scene(double extinction, const Lighting& lighting, int width = 60, int
     scene.camera->fov_y = 60;
     scene.camera->height = 1.6;
     scene.lighting = lighting;
-    if (scene.lighting->smallest_gradient.is_automatic()) scene.lighting->smallest_gradient = .05;
+    if ((*scene.lighting)->smallest_gradient.is_automatic())
+        (*scene.lighting)->smallest_gradient = .05;
     return scene;
 }
 
@@ -99,7 +100,7 @@ TEST_P(LitProjection, ALinearFieldIsTheUnlitPictureTimesAConstant) {
         for (int column = 0; column < scene.width; ++column) {
             const float *const a = plain.pixel(column, row), *const b = lit.pixel(column, row);
             const glm::dvec3 expected = lit_by_one_gradient({a[0], a[1], a[2]}, a[3], gradient,
-                                                            *scene.lighting, view.forward);
+                                                            **scene.lighting, view.forward);
             ASSERT_NEAR(b[3], a[3], 1e-5);
             for (int c = 0; c < 3; ++c) ASSERT_NEAR(b[c], expected[c], 2e-4);
         }
@@ -130,8 +131,8 @@ TEST_P(LitProjection, TurningAndScalingEverythingChangesNothing) {
     MeshData turned = data;
     for (glm::dvec3& point : turned.points) point = scale * (turn * point);
     scene.transfer_function = colors(5 / scale);
-    for (Light& light : scene.lighting->lights) light.direction = turn * *light.direction;
-    scene.lighting->smallest_gradient = *scene.lighting->smallest_gradient / scale;
+    for (Light& light : (*scene.lighting)->lights) light.direction = turn * *light.direction;
+    (*scene.lighting)->smallest_gradient = *(*scene.lighting)->smallest_gradient / scale;
     scene.camera->eye = scale * (turn * scene.camera->eye);
     scene.camera->center = scale * (turn * scene.camera->center);
     scene.camera->up = turn * scene.camera->up;
@@ -166,8 +167,8 @@ TEST_P(LitProjection, TetsWithNanLeaveTheirNeighborsLit) {
 TEST_P(LitProjection, OtherTargetsAreLit) {
     const SceneMesh mesh = scene_mesh(test::kuhn_box({3, 3, 3}, waves));
     Scene scene = lit_scene(.7, directional());
-    scene.lighting->diffuse = .4;
-    scene.lighting->specular = .2;  // no colour is clamped
+    (*scene.lighting)->diffuse = .4;
+    (*scene.lighting)->specular = .2;  // no colour is clamped
     scene.camera->center = {1.5, 1.5, 1.5};
     scene.camera->eye = {6, -3, 4};
     const Image truth = trace(mesh, scene);
@@ -248,7 +249,7 @@ TEST(LitTets, SettingsThatCannotBeLitAreRefused) {
             {"render.project.table", "gradients"});
     refused([](Scene& scene) { scene.project.tree = TreeSettings{.factors = {4}}; },
             {"render.project.tree", "one colour"});
-    refused([](Scene& scene) { scene.lighting->smallest_gradient = automatic; },
+    refused([](Scene& scene) { (*scene.lighting)->smallest_gradient = automatic; },
             {"lighting.smallest_gradient"});
 }
 

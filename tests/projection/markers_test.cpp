@@ -75,7 +75,7 @@ TEST_P(Markers, LeaveLightAsItIs) {
         const SceneMesh mesh = marked_mesh(marker, 100);
         Scene scene = marked_scene(colorful(20, 0));
         scene.lighting = Lighting{};
-        scene.lighting->smallest_gradient = .05;
+        (*scene.lighting)->smallest_gradient = .05;
         EXPECT_LE(error(mesh, scene), scene.max_error) << marker;
     }
 }

@@ -68,9 +68,9 @@ TEST(LitCases, VolumesMatchTheHighPrecisionResults) {
         grid.centering = {centering, centering, centering};
         for (std::size_t axis = 0; axis < 3; ++axis)
             grid.step[axis] = vector_of(all[i]["step"][axis]);
-        const TraceResult result =
-            trace_volume(make_volume<float>(grid, all[i]["samples"]), *scene.transfer_function,
-                         View(*scene.camera, 1, 1), {case_tolerance, scene.lighting});
+        const TraceResult result = trace_volume(make_volume<float>(grid, all[i]["samples"]),
+                                                *scene.transfer_function, View(*scene.camera, 1, 1),
+                                                {case_tolerance, copied_lighting(scene.lighting)});
         expect_rgba(result.image, result.error_estimate, all[i], i);
     }
 }
@@ -86,9 +86,9 @@ TEST(LitCases, MeshesMatchTheHighPrecisionResults) {
         data.point_scalars = {{"s", all[i]["scalar"]}};
         const TetMesh mesh(data, "case");
         const FaceTree tree(mesh, mesh.open_faces());
-        const TraceResult result =
-            trace_mesh(mesh, tree, mesh.point_scalars()[0].values, *scene.transfer_function,
-                       View(*scene.camera, 1, 1), {case_tolerance, scene.lighting});
+        const TraceResult result = trace_mesh(mesh, tree, mesh.point_scalars()[0].values,
+                                              *scene.transfer_function, View(*scene.camera, 1, 1),
+                                              {case_tolerance, copied_lighting(scene.lighting)});
         expect_rgba(result.image, result.error_estimate, all[i], i);
     }
 }

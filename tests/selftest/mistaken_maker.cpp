@@ -44,7 +44,7 @@ Scene MistakenMaker::mistaken(Scene scene) const {
                 plane.point += 1e-3 * glm::normalize(plane.normal);
             break;
         case Mistake::light:
-            if (scene.lighting) scene.lighting->ambient += .01;
+            if (scene.lighting) (*scene.lighting)->ambient += .01;
             break;
         case Mistake::bits:
             if (scene.target == Target::emulated) scene.emulate.bits -= 2;

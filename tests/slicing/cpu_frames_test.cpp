@@ -32,8 +32,8 @@ std::vector<FrameCase> cases(const TransferFunction& colored = smooth_transfer_f
         lit.slice.classification = each;
         lit.lighting = reference_test::directional();
         all.push_back({"lit by colours", lit, {}});
-        lit.lighting->lights = {Light{}};
-        lit.lighting->power = 7.5;
+        (*lit.lighting)->lights = {Light{}};
+        (*lit.lighting)->power = 7.5;
         all.push_back({"lit by a headlight", lit, leave_nothing_out()});
         lit.target = Target::emulated;
         lit.emulate = {10, AlphaRounding::stochastic, OverRounding::fused, 3};

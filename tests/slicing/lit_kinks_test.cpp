@@ -28,7 +28,8 @@ Scene scene_of(const Volume& volume, double depth) {
              knot(at(.6), {1, .8, .7}, 3 * extinction), knot(at(1), {.1, .3, 1}, extinction)}),
         Projection::perspective, 48, 36);
     scene.slice.classification = Classification::exact;
-    scene.lighting.emplace().smallest_gradient = .01 * (range.hi - range.lo);
+    scene.lighting = Lighting{};
+    (*scene.lighting)->smallest_gradient = .01 * (range.hi - range.lo);
     scene.camera->center = reference_test::middle_of(volume.grid());
     scene.camera->eye =
         scene.camera->center + .8 * diagonal * glm::normalize(glm::dvec3(.4, -.7, .9));
@@ -46,7 +47,7 @@ TEST_P(LitKinks, StrongLightsKeepMaxError) {
     const Volume volume = noise({13, 9, 11}, 1);
     for (const double strength : {1., 10.}) {
         Scene scene = scene_of(volume, 5);
-        scene.lighting->lights[0].color = glm::dvec3(strength);
+        (*scene.lighting)->lights[0].color = glm::dvec3(strength);
         const Image traced = trace(volume, scene, 1e-6);
         // llvmpipe limits loops to fewer iterations than an error of 1 would take under strong
         // lights (plan/choices.h).
@@ -62,8 +63,8 @@ TEST_P(LitKinks, TinyVolumesKeepMaxError) {
     for (int seed = 0; seed < (is_native() ? 40 : 4); ++seed) {
         const Volume volume = noise({2, 2, 2}, seed);
         Scene scene = scene_of(volume, 20);
-        scene.lighting->specular = .5;
-        scene.lighting->power = seed % 3 == 0 ? 64 : 10;
+        (*scene.lighting)->specular = .5;
+        (*scene.lighting)->power = seed % 3 == 0 ? 64 : 10;
         const Image traced = trace(volume, scene, 1e-6);
         for (const double max_error : {.25, 1.}) {
             if (!is_native() && max_error < 1) continue;

@@ -63,7 +63,8 @@ Scene lit_scene(Classification classification, const Lighting& lighting) {
         Projection::perspective, 60, 45);
     scene.slice.classification = classification;
     scene.lighting = lighting;
-    if (scene.lighting->smallest_gradient.is_automatic()) scene.lighting->smallest_gradient = .2;
+    if ((*scene.lighting)->smallest_gradient.is_automatic())
+        (*scene.lighting)->smallest_gradient = .2;
     return scene;
 }
 
@@ -138,7 +139,7 @@ TEST_P(LitSlabsOf, ALinearFieldIsTheUnlitPictureTimesAConstant) {
             for (std::size_t i = 0; i < lit.rgba.size(); i += 4) {
                 const float *const a = &plain.rgba[i], *const b = &lit.rgba[i];
                 const glm::dvec3 expected =
-                    lit_by_one_gradient({a[0], a[1], a[2]}, a[3], gradient, *scene.lighting,
+                    lit_by_one_gradient({a[0], a[1], a[2]}, a[3], gradient, **scene.lighting,
                                         scene.camera->center - scene.camera->eye);
                 ASSERT_EQ(b[3], a[3]);
                 for (int c = 0; c < 3; ++c)

@@ -75,7 +75,7 @@ void look_from(const Volume& volume, const glm::dvec3& direction, double distanc
 Image traced(const Volume& volume, const Scene& scene) {
     return to_float(trace_volume(volume, *scene.transfer_function,
                                  View(*scene.camera, scene.width, scene.height),
-                                 {1e-6, scene.lighting})
+                                 {1e-6, copied_lighting(scene.lighting)})
                         .image);
 }
 
@@ -91,7 +91,7 @@ void LitTest::keeps_max_error(const Volume& volume, Scene& scene, const Image& r
     for (const double max_error : {1., 4.}) {
         scene.max_error = max_error;
         EXPECT_LE(linf(draw(volume, scene), reference), max_error)
-            << name_of(scene.camera->projection) << ", power " << scene.lighting->power;
+            << name_of(scene.camera->projection) << ", power " << (*scene.lighting)->power;
     }
 }
 
@@ -148,7 +148,7 @@ TEST_P(LitTest, ALinearFieldIsTheUnlitPictureTimesAConstant) {
         for (int column = 0; column < scene.width; ++column) {
             const float *const a = plain.pixel(column, row), *const b = lit.pixel(column, row);
             const glm::dvec3 expected =
-                lit_by_one_gradient({a[0], a[1], a[2]}, a[3], gradient, *scene.lighting,
+                lit_by_one_gradient({a[0], a[1], a[2]}, a[3], gradient, **scene.lighting,
                                     scene.camera->center - scene.camera->eye);
             // Lit rays are walked in double precision, and unlit ones in floats.
             ASSERT_NEAR(b[3], a[3], lit_float_error / 255);
@@ -238,7 +238,7 @@ TEST_P(LitTest, FillValuesKeepMaxError) {
             Projection::perspective, 60, 45);
         scene.slice.classification = Classification::exact;
         scene.lighting = directional();
-        scene.lighting->smallest_gradient = smallest;
+        (*scene.lighting)->smallest_gradient = smallest;
         look_from(same, {.4, -.7, .9}, .9, scene);
         const Image reference = traced(same, scene);
         for (const float fill : {1e9f, 1e20f}) keeps_max_error(beside(fill), scene, reference);
@@ -258,7 +258,7 @@ TEST_P(LitTest, OuterHalfVoxelsHaveTheBordersGradient) {
                        Projection::perspective, 60, 45);
     scene.slice.classification = Classification::exact;
     scene.lighting = directional();
-    scene.lighting->smallest_gradient = .01;
+    (*scene.lighting)->smallest_gradient = .01;
     look_from(volume, {.9, -.5, .4}, .9, scene);
     keeps_max_error(volume, scene, traced(volume, scene));
 }
@@ -275,7 +275,7 @@ TEST_P(LitTest, GradientsOfAllSizesKeepMaxError) {
         Projection::perspective, 60, 45);
     scene.slice.classification = Classification::exact;
     scene.lighting = directional();
-    scene.lighting->smallest_gradient = 1e-11;
+    (*scene.lighting)->smallest_gradient = 1e-11;
     look_from(volume, {-.8, -.7, .9}, .9, scene);
     keeps_max_error(volume, scene, traced(volume, scene));
 }
@@ -318,7 +318,7 @@ TEST_P(LitTest, ClippedVolumesAreLit) {
 TEST_P(LitTest, AnAutomaticSmallestGradientIsRefused) {
     const Volume volume = waves<float>(test::grid_of({5, 5, 5}, Centering::node), 1);
     Scene scene = lit_scene(volume, 5, Lighting{}, .01);
-    scene.lighting->smallest_gradient = automatic;
+    (*scene.lighting)->smallest_gradient = automatic;
     expect_error([&] { draw(volume, scene); }, {"lighting.smallest_gradient"});
 }
 

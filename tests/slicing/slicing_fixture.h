@@ -44,10 +44,11 @@ inline Image render(const Volume& volume, const Scene& scene, const Capabilities
 }
 
 inline Image trace(const Volume& volume, const Scene& scene, double tolerance) {
-    return to_float(trace_volume(volume, *scene.transfer_function,
-                                 View(*scene.camera, scene.width, scene.height),
-                                 {tolerance, scene.lighting, half_spaces(scene.clip)})
-                        .image);
+    return to_float(
+        trace_volume(volume, *scene.transfer_function,
+                     View(*scene.camera, scene.width, scene.height),
+                     {tolerance, copied_lighting(scene.lighting), half_spaces(scene.clip)})
+            .image);
 }
 
 // Returns the largest difference, in 1/255.

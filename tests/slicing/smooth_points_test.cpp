@@ -68,7 +68,7 @@ TEST(SmoothPoints, KeepTheErrorTheyClaimIfLit) {
     for (const TransferFunction& function : curves(2)) {
         Scene scene = scene_of(function);
         scene.lighting = Lighting{};
-        scene.lighting->smallest_gradient = .1;
+        (*scene.lighting)->smallest_gradient = .1;
         const double claimed = claimed_error(scene);
         EXPECT_LE(linf(render_tiles(cells(), scene), trace(cells(), scene, 1e-6)), claimed);
     }

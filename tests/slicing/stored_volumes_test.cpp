@@ -149,8 +149,8 @@ TEST(StoredVolumes, DrawLightAsFromMemory) {
     const Volume floats = noise<float>(some_size, Centering::cell, 1);
     for (const Volume& volume : {bytes, floats}) {
         Scene scene = scene_of(volume, Classification::exact);
-        scene.lighting.emplace();
-        scene.lighting->smallest_gradient = .1;
+        scene.lighting = Lighting{};
+        (*scene.lighting)->smallest_gradient = .1;
         expect_same(volume, scene, "exact");
         scene.slice.classification = Classification::post;
         scene.slice.samples = 80;

@@ -99,7 +99,7 @@ TEST(VolumeShares, MakeOnePictureOfLitVolumes) {
     for (const auto classification : {Classification::exact, Classification::preintegrated}) {
         expect_same_from_everywhere(some_volume(), classification, [](Scene& scene) {
             scene.lighting = Lighting{};
-            scene.lighting->smallest_gradient = 1;
+            (*scene.lighting)->smallest_gradient = 1;
         });
     }
 }
@@ -115,7 +115,7 @@ TEST(VolumeShares, CutLightThatBendsInTheSamePlaces) {
             unit_box_scene(in_view_of(waves, 20, steps), Projection::perspective, 180, 135);
         scene.slice.classification = Classification::exact;
         scene.lighting = Lighting{};
-        scene.lighting->smallest_gradient = 1;
+        (*scene.lighting)->smallest_gradient = 1;
         look_from(waves, direction, 1.2, scene);
         expect_same_together(waves, scene, "waves");
     }

@@ -21,7 +21,7 @@ Scene lit_scene() {
     scene.width = 24;
     scene.height = 18;
     scene.slice.classification = Classification::exact;
-    scene.lighting.emplace();
+    scene.lighting = Lighting{};
     return scene;
 }
 
@@ -29,10 +29,10 @@ Scene lit_scene() {
 TEST(LitStudy, ChoosesTheSmallestGradientAndTracesWithLight) {
     DataStore data;
     StudyFrames frames(lit_scene(), data, cpu_capabilities(), std::make_shared<TableCache>());
-    ASSERT_TRUE(frames.scene().lighting->smallest_gradient.is_given());
+    ASSERT_TRUE((*frames.scene().lighting)->smallest_gradient.is_given());
     // .01 of the range of values, which is at most 1, over the distance of samples.
-    EXPECT_GT(*frames.scene().lighting->smallest_gradient, .005 * 11);
-    EXPECT_LE(*frames.scene().lighting->smallest_gradient, .01 * 12);
+    EXPECT_GT(*(*frames.scene().lighting)->smallest_gradient, .005 * 11);
+    EXPECT_LE(*(*frames.scene().lighting)->smallest_gradient, .01 * 12);
     ReferenceStore references;
     const Reference& reference = references.get(frames.scene(), TraceOf::volume, data);
     EXPECT_LE(image_error(frames.picture(), reference.image).all.linf, frames.scene().max_error);
@@ -46,11 +46,11 @@ TEST(LitStudy, PicturesOfOtherLightsHaveOtherKeys) {
     const Scene scene = lit_scene();
     std::vector<Scene> others(6, scene);
     others[0].lighting.reset();
-    others[1].lighting->ambient = .2;
-    others[2].lighting->power = 11;
-    others[3].lighting->smallest_gradient = .1;
-    others[4].lighting->lights[0].direction = glm::dvec3(0, 0, 1);
-    others[5].lighting->lights.push_back({});
+    (*others[1].lighting)->ambient = .2;
+    (*others[2].lighting)->power = 11;
+    (*others[3].lighting)->smallest_gradient = .1;
+    (*others[4].lighting)->lights[0].direction = glm::dvec3(0, 0, 1);
+    (*others[5].lighting)->lights.push_back({});
     for (const Scene& other : others) EXPECT_NE(picture_key(other), picture_key(scene));
 }
 

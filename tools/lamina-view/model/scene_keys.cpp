@@ -283,8 +283,8 @@ void set_at(Json& settings, const std::string& path, const Json& value) {
 void convert_colors(Scene& scene, ImageColorSpace from) {
     const ImageColorSpace to = scene.color_space;
     scene.background = converted_color(scene.background, from, to);
-    if (!scene.lighting) return;
-    for (Light& light : scene.lighting->lights)
+    if (!scene.lighting || scene.lighting->is_automatic()) return;
+    for (Light& light : (*scene.lighting)->lights)
         light.color = converted_color(light.color, from, to);
 }
 

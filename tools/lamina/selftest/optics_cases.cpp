@@ -153,7 +153,7 @@ SelftestScene orthographic(const std::string& name, const std::string& about,
 SelftestScene light_behind() {
     SelftestScene scene = orthographic(
         "opposite_light", "A light straight towards the eye: no highlight", two_lights(.1));
-    scene.scene.lighting->lights[0].direction =
+    (*scene.scene.lighting)->lights[0].direction =
         scene.scene.camera->center - scene.scene.camera->eye;
     return scene;
 }

@@ -267,7 +267,7 @@ PictureBounds layered_picture(const SelftestScene& subject, const DrawingWay& wa
                 widen(possible, 0, 0, blends * place_in_table);
         }
         if (scene.lighting) {
-            const OneGradientLight light(*scene.lighting, box, ray);
+            const OneGradientLight light(**scene.lighting, box, ray);
             light.shine_on(exact);
             light.shine_on(possible, way.method == Method::trace ? 1e-12 : light_error);
         }
