@@ -28,7 +28,8 @@ struct AutomaticTransfer {
 
 // Chooses a transfer function from values alone (docs/first-picture.md): the rarer values are, the
 // denser and brighter; common ones are transparent. `least_padding_share`: see find_padding().
-// `labels`: what the file says of labels, if all values are labels; each then has a colour.
+// `labels`: what the file says of labels, if all values are labels; each then has a colour, and a
+// range is one of the file's numbers.
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
                                            const TransferAdjustments& adjustments = {},
                                            double least_padding_share = least_padding,

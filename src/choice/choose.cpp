@@ -82,6 +82,30 @@ TransferFunction displayed(const TransferFunction& transfer_function) {
     return TransferFunction::linear(knots);
 }
 
+// Warns of labels that have the colour of the background by the file's own words.
+void warn_of_background(const VolumeLabels& labels, const Scene& scene) {
+    constexpr double same = 1. / 512;  // half a step of 8 bits
+    const bool display = scene.color_space == ImageColorSpace::display;
+    std::string numbers;
+    int count = 0;
+    for (const Label& label : labels.list) {
+        if (!label.color || label.opacity == 0 || label.number == "0") continue;
+        double largest = 0;
+        for (int c = 0; c < 3; ++c) {
+            const double linear = (*label.color)[c];
+            const double shown = display ? srgb_from_linear(linear) : linear;
+            largest = std::max(largest, std::abs(shown - scene.background[c]));
+        }
+        if (largest > same) continue;
+        if (++count <= 8) numbers += (count == 1 ? "" : ", ") + label.number;
+    }
+    if (count == 0) return;
+    warn(
+        fmt::format("{}: the file gives the background's colour to {} of its labels ({}{}), which "
+                    "hide others but cannot be seen",
+                    name_of_data(scene), count, numbers, count > 8 ? ", ..." : ""));
+}
+
 // Gradients below this share of (range of values / spacing) count as noise.
 constexpr double smallest_gradient_share = .01;
 
@@ -209,10 +233,17 @@ Choices choose(Scene asked, const Field& field, const Adjustments& adjustments) 
         if (scene.color_space == ImageColorSpace::display && !adjustments.transfer.colormap)
             scene.transfer_function = displayed(*scene.transfer_function);
         reason = std::move(chosen.reason);
+        if (field.labels() != nullptr) warn_of_background(*field.labels(), scene);
         if (!chosen.padding.empty())
             warn(fmt::format("{}: {}", name_of_data(scene), chosen.padding));
     } else {
         TransferFunction& changed = *scene.transfer_function;
+        if (adjustments.transfer.range && changed.of_codes()) {
+            fail(
+                "{}: found a range of values and a transfer function of labels that are numbered "
+                "anew: expected one of both",
+                name_of_data(scene));
+        }
         if (adjustments.transfer.range) changed = stretched(changed, *adjustments.transfer.range);
         if (adjustments.transfer.colormap)
             changed = recolored(changed, *adjustments.transfer.colormap);

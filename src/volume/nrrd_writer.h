@@ -10,7 +10,9 @@ namespace lamina {
 // Writes a header; the caller must then write all samples, in native byte order, x fastest.
 void write_nrrd_header(AtomicFile& file, const Grid& grid, SampleType type);
 
-// Writes header and raw samples. Does not commit the file.
+// Writes header and raw samples. Does not commit the file. Labels are written with the file's
+// numbers, and what is known of them in the keys of 3D Slicer's segmentations; Slicer has no key
+// for an opacity other than 1.
 void write_nrrd(AtomicFile& file, const Volume& volume);
 
 }  // namespace lamina
