@@ -116,7 +116,8 @@ LAMINA_API const char* name_of(NanPolicy policy);
 
 // Loads the volume that the scene names: reads its file, or generates it. `only_below`: as in
 // load_volume() for files (lamina/volume.h).
-LAMINA_API Volume load_volume(const Scene& scene, const std::filesystem::path& only_below = {});
+LAMINA_API Volume load_volume(const Scene& scene, const std::filesystem::path& only_below = {},
+                              std::vector<std::string>* warnings = nullptr);
 
 // Kind of the contents of a file.
 enum class FileKind { scene, volume, mesh };

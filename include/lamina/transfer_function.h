@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lamina/error.h"
@@ -55,8 +56,10 @@ class LAMINA_API TransferFunction {
     // Tells whether values are codes of a volume's labels (lamina/volume.h, VolumeLabels), and not
     // the file's numbers. It matters only if the volume is renumbered.
     bool of_codes() const { return of_codes_; }
-    // Returns this function with values that are codes of labels.
-    TransferFunction with_codes() const;
+    // Returns this function with values that are codes of labels, and which labels these are:
+    // empty if that is not known, as if a user wrote the function.
+    TransferFunction with_codes(std::string labels = {}) const;
+    const std::string& labels() const { return labels_; }
 
     // Returns the knots, without those that lie on the straight line between their neighbours.
     std::span<const TransferKnot> knots() const { return knots_; }
@@ -84,6 +87,7 @@ class LAMINA_API TransferFunction {
     static constexpr std::size_t block = 256;
     std::vector<double> largest_;
     bool of_codes_ = false;
+    std::string labels_;
 };
 
 }  // namespace lamina

@@ -87,6 +87,7 @@ struct Label {
     std::string number;                 // the file's number for it, in decimal digits
     std::string name{};                 // empty if the file gives none
     std::optional<glm::dvec3> color{};  // linear light; empty if the file gives none
+    double opacity = 1;                 // as the file says, from 0 to 1; 0: shows nothing
 };
 
 // Labels of which a file says more than its samples do, in the order of their codes.
@@ -219,12 +220,22 @@ LAMINA_API void set_memory_limit(std::uint64_t bytes);  // 0: the default
 // Reads a volume of any kind that scenes may name (docs/scene.md, "What is drawn"). If `only_below`
 // is a folder, this function, like all others with this argument, refuses files that are not below
 // the folder once all links are followed, whoever names them (docs/files.md). Throws Error: one
-// line that names the file, what was found and what was expected.
+// line that names the file, what was found and what was expected. What is noteworthy, such as which
+// of several channels is read, or that samples are taken for labels, is put
+// into `warnings`.
 LAMINA_API Volume load_volume(const std::filesystem::path& file, const VolumeRequest& request = {},
-                              const std::filesystem::path& only_below = {});
+                              const std::filesystem::path& only_below = {},
+                              std::vector<std::string>* warnings = nullptr);
 
-// Writes a volume as .nrrd, from which load_volume() reads the same bits. The file appears under
-// its name when it is complete. Throws Error, also for other suffixes.
+// Makes a volume of labels from grid.sample_count() numbers in memory, as from a file: samples are
+// the first of uint8, int16 and uint16 that holds all of them, else codes (VolumeLabels). Numbers
+// that are not whole, or more than 65,535 different ones, become float. `type`: as in RawLayout.
+LAMINA_API Volume label_volume(const Grid& grid, const std::string& type,
+                               std::shared_ptr<const void> samples,
+                               std::vector<std::string>* warnings = nullptr);
+
+// Writes a volume as .nrrd, from which load_volume() reads the same bits, and the same labels. The
+// file appears under its name when it is complete. Throws Error, also for other suffixes.
 LAMINA_API void save_volume(const Volume& volume, const std::filesystem::path& file);
 
 }  // namespace lamina

@@ -10,6 +10,9 @@ import numpy as np
 DRAWN = (np.dtype(np.uint8), np.dtype(np.int16), np.dtype(np.uint16), np.dtype(np.float32))
 # Smallest and largest value of the types of whole numbers.
 WHOLE = ((0, 255, "uint8"), (-32768, 32767, "int16"), (0, 65535, "uint16"))
+# Types of labels that may need other numbers, by their names in C++.
+LABELS = {np.dtype(kind): "float" if kind == "float32" else "double" if kind == "float64" else kind
+          for kind in ("int32", "uint32", "int64", "uint64", "float32", "float64")}
 LARGEST_COORDINATE = 1e100
 
 

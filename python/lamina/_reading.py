@@ -7,7 +7,7 @@ import pathlib
 from typing import Any
 
 from . import _lamina
-from ._errors import Error
+from ._errors import Error, PictureWarning, warn
 from ._mesh import Mesh
 from ._plain import plain
 from ._volume import Path, Volume, folder_name
@@ -21,7 +21,8 @@ def read(file: Path, *, only_below: Path | None = None, **selection: Any) -> Vol
 
     ``only_below``: a folder; files that are not below it with all links followed, whoever names them, are refused.
 
-    World coordinates are the file's own. Raises ``lamina.Error`` for bad files, and for scenes: ``lamina.Scene.load``
+    World coordinates are the file's own. What is noteworthy, such as that samples are taken for labels, or which of
+    several channels is read, is a ``PictureWarning``. Raises ``lamina.Error`` for bad files, and for scenes: ``lamina.Scene.load``
     reads these.
 
     >>> lamina.Volume(np.zeros((2, 3, 4), np.int16)).save("small.nrrd")
@@ -35,6 +36,8 @@ def read(file: Path, *, only_below: Path | None = None, **selection: Any) -> Vol
     absolute = path.absolute()
     if kind == "volume":
         source: str | dict[str, Any] = {"path": str(absolute), **plain(selection)} if selection else str(absolute)
-        core = _lamina.Volume.load(json.dumps({"version": 1, "volume": source}), folder)
+        core, warnings = _lamina.Volume.load(json.dumps({"version": 1, "volume": source}), folder)
+        for text in warnings:
+            warn(text, PictureWarning)
         return Volume._of(core, absolute, source)
     return Mesh._of(_lamina.Mesh.load(path, folder), absolute)

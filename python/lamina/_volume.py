@@ -9,7 +9,7 @@ from typing import Any, Sequence
 import numpy as np
 
 from . import _conversion, _lamina
-from ._errors import Error, PrecisionWarning, warn
+from ._errors import Error, PictureWarning, PrecisionWarning, warn
 from ._watched import Watched, can_be_written
 
 Path = str | os.PathLike[str]
@@ -32,7 +32,8 @@ class Volume:
     the first sample) are in world units. ``directions``: unit vectors along the array's x, y and z, perpendicular to
     each other. ``centers``: with ``"node"`` the box spans the samples, with ``"cell"`` it spans whole voxels, half a
     voxel more at each end. ``lookup``: with ``"linear"`` the field between samples is trilinear, with ``"nearest"`` it
-    is constant in each sample's voxel, for labels.
+    is constant in each sample's voxel, for labels: whole numbers of any type that 16 bits do not hold are then numbered
+    as those of a file are (``labels``), with a ``PictureWarning``.
 
     Contiguous arrays (contiguous as ``array[z, y, x]``: for ``axes="xyz"`` that is Fortran order) of uint8, int16,
     uint16 and float32 in native byte order are not copied: do not change them while they are drawn. If an array was
@@ -68,10 +69,19 @@ class Volume:
                         in zip(_conversion.spacing_of(spacing), _conversion.directions_of(directions))]
         first_sample = _conversion.triple("origin", origin)
         centerings = _conversion.centers_of(centers, ordered.shape)
-        samples, self._conversion = _conversion.drawn_array(ordered)
-        if self._conversion:
-            warn(self._conversion, PrecisionWarning)
-        self._core = _lamina.Volume.over(np.asarray(samples), step_vectors, first_sample, centerings, lookup)
+        native = ordered.dtype.newbyteorder("=")
+        if lookup == "nearest" and native in _conversion.LABELS:
+            samples = np.ascontiguousarray(ordered, dtype=native)
+            self._core, warnings = _lamina.Volume.labels_over(samples, _conversion.LABELS[native], step_vectors,
+                                                              first_sample, centerings)
+            samples, self._conversion = self._core.array, ""
+            for text in warnings:
+                warn(text, PictureWarning)
+        else:
+            samples, self._conversion = _conversion.drawn_array(ordered)
+            if self._conversion:
+                warn(self._conversion, PrecisionWarning)
+            self._core = _lamina.Volume.over(np.asarray(samples), step_vectors, first_sample, centerings, lookup)
         is_shared = np.shares_memory(samples, ordered)
         self._changeable: np.ndarray | None = samples if is_shared and can_be_written(samples) else None
         self._file: pathlib.Path | None = None
@@ -180,7 +190,10 @@ class Volume:
         return None if self._changeable is None else Watched(self._changeable)
 
     def save(self, file: Path) -> None:
-        """Writes a NRRD file (``.nrrd``), which the command line draws as this module draws the volume."""
+        """Writes a NRRD file (``.nrrd``), which the command line draws as this module draws the volume.
+
+        Labels are written with their own numbers, and their names and colours with the keys of 3D Slicer's segmentations.
+        """
         self._core.save(pathlib.Path(file))
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:

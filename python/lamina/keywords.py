@@ -317,6 +317,7 @@ class TransferFunctionKeys(TypedDict, total=False):
       everywhere; nearest: the nearest point. Default: "linear".
     - ``codes``: Values are the codes of labels that do not fit 16 bits (docs/scene.md, "Labels"), in place of the
       file's numbers. Default: false.
+    - ``codes_of``: Which labels the codes are of, as lamina writes it: a volume of others is refused.
     - ``colormap``: Path of a ParaView colour map (JSON preset), or the name of a shipped one: cividis, cool-warm,
       ct-angio, ct-bone, ct-lung, ct-soft-tissue, greys, inferno, viridis. Points then give no colour.
     - ``colormap_range``: Scalars that the map is stretched to; a shipped one else to the data's range, if it is not
@@ -327,6 +328,7 @@ class TransferFunctionKeys(TypedDict, total=False):
     unit_length: float
     interpolation: Literal["linear", "extinction", "nearest"]
     codes: bool
+    codes_of: str
     colormap: Union[str, os.PathLike[str]]
     colormap_range: Vector
     points: Sequence[TransferFunctionPointKeys]

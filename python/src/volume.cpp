@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "bindings.h"
@@ -40,13 +41,8 @@ VolumeLookup lookup_of(const std::string& word) {
     throw py::value_error("lookup: found \"" + word + "\", expected \"linear\" or \"nearest\"");
 }
 
-// The array is C contiguous, z first; the package's Python code has made it so.
-Volume volume_over(const py::array& array, const std::array<Vector, 3>& steps, const Vector& origin,
-                   const std::array<std::string, 3>& centers, const std::string& lookup,
-                   const std::string& unit) {
-    const auto type = sample_type(array.dtype());
-    if (!type || array.ndim() != 3 || (array.flags() & py::array::c_style) == 0)
-        throw py::type_error("expected a contiguous array [z, y, x] of a type that is drawn");
+Grid grid_over(const py::array& array, const std::array<Vector, 3>& steps, const Vector& origin,
+               const std::array<std::string, 3>& centers) {
     Grid grid;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         grid.size[axis] = array.shape(static_cast<py::ssize_t>(2 - axis));
@@ -54,9 +50,37 @@ Volume volume_over(const py::array& array, const std::array<Vector, 3>& steps, c
         grid.centering[axis] = centering_of(centers[axis]);
     }
     grid.origin = to_glm(origin);
+    return grid;
+}
+
+// The array is C contiguous, z first; the package's Python code has made it so.
+Volume volume_over(const py::array& array, const std::array<Vector, 3>& steps, const Vector& origin,
+                   const std::array<std::string, 3>& centers, const std::string& lookup,
+                   const std::string& unit) {
+    const auto type = sample_type(array.dtype());
+    if (!type || array.ndim() != 3 || (array.flags() & py::array::c_style) == 0)
+        throw py::type_error("expected a contiguous array [z, y, x] of a type that is drawn");
+    Grid grid = grid_over(array, steps, origin, centers);
     grid.lookup = lookup_of(lookup);
     grid.unit = unit;
     return {grid, *type, keep(array, array.data())};
+}
+
+// Returns a volume of labels, and the warnings. The array is as for volume_over(), of any type that
+// files have.
+std::pair<Volume, std::vector<std::string>> labels_over(const py::array& array,
+                                                        const std::string& type,
+                                                        const std::array<Vector, 3>& steps,
+                                                        const Vector& origin,
+                                                        const std::array<std::string, 3>& centers) {
+    if (array.ndim() != 3 || (array.flags() & py::array::c_style) == 0)
+        throw py::type_error("expected a contiguous array [z, y, x]");
+    const Grid grid = grid_over(array, steps, origin, centers);
+    std::shared_ptr<const void> samples = keep(array, array.data());
+    std::vector<std::string> warnings;
+    const py::gil_scoped_release free;
+    Volume volume = label_volume(grid, type, std::move(samples), &warnings);
+    return {std::move(volume), std::move(warnings)};
 }
 
 py::array array_of(const Volume& volume) {
@@ -109,12 +133,16 @@ void bind_volume(py::module_& module) {
     py::class_<Volume>(module, "Volume")
         .def_static("over", &volume_over, py::arg("array"), py::arg("steps"), py::arg("origin"),
                     py::arg("centers"), py::arg("lookup") = "linear", py::arg("unit") = "")
+        .def_static("labels_over", &labels_over, py::arg("array"), py::arg("type"),
+                    py::arg("steps"), py::arg("origin"), py::arg("centers"))
         .def_static(
             "load",
             [](const std::string& scene, const std::string& only_below) {
                 const Scene read =
                     parse_scene(scene, "lamina.read", std::filesystem::path(only_below));
-                return load_volume(read, only_below);
+                std::vector<std::string> warnings;
+                Volume volume = load_volume(read, only_below, &warnings);
+                return std::pair(std::move(volume), std::move(warnings));
             },
             py::arg("scene"), py::arg("only_below") = "", py::call_guard<py::gil_scoped_release>())
         .def(

@@ -8,6 +8,8 @@
 #include <memory>
 #include <stop_token>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/profile.h"
 
@@ -50,6 +52,21 @@ class ClientScope {
   private:
     Client before_;
 };
+
+// Returns work(), and keeps copies of its warnings in `said`.
+template <typename Work>
+auto keep_warnings(std::vector<std::string>& said, const Work& work) {
+    said.clear();
+    Client client = ClientScope::current();
+    const WarningTaker* const taker = client.warnings;
+    const WarningTaker keeper = [&](const std::string& text) {
+        said.push_back(text);
+        if (taker != nullptr && *taker) (*taker)(text);
+    };
+    client.warnings = &keeper;
+    const ClientScope scope(std::move(client));
+    return work();
+}
 
 // Returns the canonical name of `folder`, which stays valid if the program changes its working
 // directory; null if `folder` is empty. Throws Error, which begins with `key`, if it is no folder.

@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -119,66 +121,97 @@ double extinction_of(double share) {
     return std::pow(std::max(share, .01), -.5);
 }
 
-// Tells whether a value is a negative number of the file.
-bool is_negative(double value, const VolumeLabels* labels) {
-    if (labels == nullptr || !labels->renumbered) return value < 0;
-    const auto label = std::ranges::find(labels->list, value, &Label::code);
-    return label != labels->list.end() && label->number.starts_with('-');
+// The labels that a volume has, with what its file says of them.
+class LabelTable {
+  public:
+    // `said` may be null.
+    LabelTable(const ValueDistribution& values, const VolumeLabels* said)
+        : values_(values), said_(said), of_value_(values.distinct(), nullptr) {
+        for (std::size_t i = 0; said != nullptr && i < of_value_.size(); ++i) {
+            const auto found = std::ranges::lower_bound(said->list, value(i), {}, &Label::code);
+            if (found != said->list.end() && found->code == value(i)) of_value_[i] = &*found;
+        }
+    }
+
+    std::size_t size() const { return of_value_.size(); }
+    double value(std::size_t i) const { return values_.value(i); }
+    double share(std::size_t i) const { return values_.share(value(i), value(i)); }
+    // Returns what the file says; null if it says nothing.
+    const Label* label(std::size_t i) const { return of_value_[i]; }
+    // Returns the file's number for a label, as text and, of 64 bits, as a number.
+    std::string number_text(std::size_t i) const {
+        return label(i) != nullptr ? label(i)->number : fmt::format("{:g}", value(i));
+    }
+    long double number(std::size_t i) const {
+        return label(i) != nullptr ? std::strtold(label(i)->number.c_str(), nullptr) : value(i);
+    }
+
+    // Returns the place of the background: of the most frequent value if it is negative, as
+    // programs mark voxels without a label, else of the label 0, else of the most frequent value
+    // of several.
+    std::optional<std::size_t> background() const {
+        std::size_t common = 0;
+        for (std::size_t i = 1; i < size(); ++i)
+            if (share(i) > share(common)) common = i;
+        if (said_ == nullptr || number(common) < 0) return common;
+        for (std::size_t i = 0; i < size(); ++i)
+            if (number(i) == 0) return i;
+        return size() > 1 ? std::optional(common) : std::nullopt;
+    }
+
+  private:
+    const ValueDistribution& values_;
+    const VolumeLabels* said_;
+    std::vector<const Label*> of_value_;
+};
+
+// Returns the sentence on what labels show.
+std::string label_text(const LabelTable& labels, bool known, std::optional<std::size_t> background,
+                       const std::optional<ValueRange>& range) {
+    std::string text = fmt::format("{} {}", labels.size(),
+                                   !known               ? "whole numbers are taken for labels"
+                                   : labels.size() == 1 ? "label"
+                                                        : "labels");
+    if (background) {
+        text += fmt::format(": {}, {:.3g} % of the field, is transparent",
+                            labels.number_text(*background), 100 * labels.share(*background));
+    }
+    if (labels.size() == 1)
+        return text + (background ? ", so that nothing shows" : ", which shows everywhere");
+    if (range)
+        return text + fmt::format(", labels from {} to {} show, as wished", range->lo, range->hi);
+    return text + ", each of the others has a colour";
 }
 
-// Returns the place of the background: of the most frequent value if it is negative, as programs
-// mark voxels without a label, else of the label 0, else of the most frequent value.
-std::size_t background_of(const ValueDistribution& values, const VolumeLabels* labels) {
-    const auto share = [&](std::size_t i) {
-        return values.share(values.value(i), values.value(i));
-    };
-    std::size_t common = 0;
-    for (std::size_t i = 1; i < values.distinct(); ++i)
-        if (share(i) > share(common)) common = i;
-    if (labels == nullptr || is_negative(values.value(common), labels)) return common;
-    const auto zero = std::ranges::find(labels->list, "0", &Label::number);
-    const bool listed = zero != labels->list.end();
-    if (!listed && labels->renumbered) return common;
-    for (std::size_t i = 0; i < values.distinct(); ++i)
-        if (values.value(i) == (listed ? zero->code : 0)) return i;
-    return common;
-}
-
-// Returns a transfer function for labels, at least two: the background is transparent; each of the
-// others has the file's colour (`labels`, or null) or one that reaches halfway to its neighbours.
-AutomaticTransfer label_transfer(const ValueDistribution& values, const VolumeLabels* labels) {
-    const std::size_t background = background_of(values, labels);
-    const auto share_of = [&](std::size_t i) {
-        return values.share(values.value(i), values.value(i));
-    };
+// Returns a transfer function for labels: the background is transparent; each of the others has the
+// file's colour and opacity (`said`, or null) or a colour that reaches halfway to its neighbours.
+// `range`: numbers of the file that show; all if empty.
+AutomaticTransfer label_transfer(const ValueDistribution& values, const VolumeLabels* said,
+                                 const std::optional<ValueRange>& range = {}) {
+    const LabelTable labels(values, said);
+    const std::optional<std::size_t> background = labels.background();
+    const double shown = background ? 1 - labels.share(*background) : 1;
     std::vector<TransferKnot> points;
     double largest = 0;
-    for (std::size_t i = 0; i < values.distinct(); ++i) {
-        OpticalProperties optics{label_color(i - (i > background ? 1 : 0)),
-                                 extinction_of(share_of(i) / (1 - share_of(background)))};
-        if (i == background) optics = {};
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        OpticalProperties optics;
+        const bool wished =
+            !range || (labels.number(i) >= range->lo && labels.number(i) <= range->hi);
+        if (wished && i != background) {
+            const std::size_t before = background && *background < i ? 1 : 0;
+            optics = {label_color(i - before), extinction_of(labels.share(i) / shown)};
+            if (const Label* const label = labels.label(i)) {
+                optics.color = label->color.value_or(optics.color);
+                optics.extinction *= label->opacity;
+            }
+        }
         largest = std::max(largest, optics.extinction);
-        points.push_back({values.value(i), optics});
+        points.push_back({labels.value(i), optics});
     }
-    for (TransferKnot& point : points) point.optics.extinction /= largest;
-    std::string transparent = fmt::format("{:g}", values.value(background));
-    auto point = points.begin();
-    for (std::size_t i = 0; labels != nullptr && i < labels->list.size(); ++i) {
-        const Label& label = labels->list[i];
-        point = std::ranges::lower_bound(point, points.end(), label.code, {}, &TransferKnot::value);
-        if (point == points.end() || point->value != label.code) continue;
-        if (point == points.begin() + static_cast<std::ptrdiff_t>(background))
-            transparent = label.number;
-        else if (label.color)
-            point->optics.color = *label.color;
-    }
-    return {
-        TransferFunction::nearest(points),
-        fmt::format("{} {}: {}, {:.3g} % of the field, is transparent, each of the others has a "
-                    "colour",
-                    values.distinct(),
-                    labels != nullptr ? "labels" : "whole numbers are taken for labels",
-                    transparent, 100 * share_of(background))};
+    for (TransferKnot& point : points)
+        if (largest > 0) point.optics.extinction /= largest;
+    return {TransferFunction::nearest(points),
+            label_text(labels, said != nullptr, background, range)};
 }
 
 AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers,
@@ -197,8 +230,8 @@ AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool
                                            const TransferAdjustments& adjustments,
                                            double least_padding_share, const VolumeLabels* labels,
                                            const TransferSubject& subject) {
-    if (labels != nullptr && values.distinct() > 1 && !adjustments.range) {
-        AutomaticTransfer chosen = label_transfer(values, labels);
+    if (labels != nullptr && values.distinct() > 0) {
+        AutomaticTransfer chosen = label_transfer(values, labels, adjustments.range);
         TransferFunction& palette = chosen.transfer_function;
         if (adjustments.colormap) palette = recolored(palette, *adjustments.colormap);
         return chosen;

@@ -30,7 +30,8 @@ struct AutomaticTransfer {
 
 // Chooses a transfer function (docs/first-picture.md): surfaces of materials or of rare values
 // show, common values and noise are transparent. `least_padding_share`: see find_padding().
-// `labels`: what the file says of labels, if all values are labels; each then has a colour.
+// `labels`: what the file says of labels, if all values are labels; each then has a colour, and a
+// range is one of the file's numbers.
 AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool whole_numbers,
                                            const TransferAdjustments& adjustments = {},
                                            double least_padding_share = least_padding,

@@ -116,6 +116,30 @@ TransferFunction displayed(const TransferFunction& transfer_function) {
     return TransferFunction::linear(knots);
 }
 
+// Warns of labels that have the colour of the background by the file's own words.
+void warn_of_background(const VolumeLabels& labels, const Scene& scene) {
+    constexpr double same = 1. / 512;  // half a step of 8 bits
+    const bool display = scene.color_space == ImageColorSpace::display;
+    std::string numbers;
+    int count = 0;
+    for (const Label& label : labels.list) {
+        if (!label.color || label.opacity == 0 || label.number == "0") continue;
+        double largest = 0;
+        for (int c = 0; c < 3; ++c) {
+            const double linear = (*label.color)[c];
+            const double shown = display ? srgb_from_linear(linear) : linear;
+            largest = std::max(largest, std::abs(shown - scene.background[c]));
+        }
+        if (largest > same) continue;
+        if (++count <= 8) numbers += (count == 1 ? "" : ", ") + label.number;
+    }
+    if (count == 0) return;
+    warn(
+        fmt::format("{}: the file gives the background's colour to {} of its labels ({}{}), which "
+                    "hide others but cannot be seen",
+                    name_of_data(scene), count, numbers, count > 8 ? ", ..." : ""));
+}
+
 AutomaticTransfer chosen_function(const Scene& scene, const TransferSubject& subject,
                                   const ValueDistribution& values,
                                   const TransferAdjustments& adjustments) {
@@ -125,11 +149,19 @@ AutomaticTransfer chosen_function(const Scene& scene, const TransferSubject& sub
                                  field.least_padding_share(), field.labels(), subject);
     if (scene.color_space == ImageColorSpace::display && !adjustments.colormap)
         chosen.transfer_function = displayed(chosen.transfer_function);
+    if (field.labels() != nullptr) warn_of_background(*field.labels(), scene);
     if (!chosen.padding.empty()) warn(fmt::format("{}: {}", name_of_data(scene), chosen.padding));
     return chosen;
 }
 
-void change(TransferFunction& function, const TransferAdjustments& adjustments) {
+void change(TransferFunction& function, const TransferAdjustments& adjustments,
+            const Scene& scene) {
+    if (adjustments.range && function.of_codes()) {
+        fail(
+            "{}: found a range of values and a transfer function of labels that are numbered anew: "
+            "expected one of both",
+            name_of_data(scene));
+    }
     if (adjustments.range) function = stretched(function, *adjustments.range);
     if (adjustments.colormap) function = recolored(function, *adjustments.colormap);
 }
@@ -313,7 +345,7 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
         chosen = chosen_function(scene, subject, values, adjustments.transfer);
         scene.transfer_function = chosen.transfer_function;
     } else {
-        change(*scene.transfer_function, adjustments.transfer);
+        change(*scene.transfer_function, adjustments.transfer, scene);
     }
     if (adjustments.opacity) {
         chosen.reason = take_opacity(adjustments, *scene.transfer_function);

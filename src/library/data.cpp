@@ -9,6 +9,7 @@
 #include "mesh_files/mesh_file.h"
 #include "meshing/volume_mesh.h"
 #include "volume/nrrd_writer.h"
+#include "volume_files/stored_samples.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
@@ -24,9 +25,23 @@ void expect_suffix(const std::filesystem::path& file, const char* suffix) {
 }  // namespace
 
 Volume load_volume(const std::filesystem::path& file, const VolumeRequest& request,
-                   const std::filesystem::path& only_below) {
+                   const std::filesystem::path& only_below, std::vector<std::string>* warnings) {
     const OnlyBelowScope scope(only_below);
-    return read_volume(file, request);
+    std::vector<std::string> said;
+    return keep_warnings(warnings == nullptr ? said : *warnings,
+                         [&] { return read_volume(file, request); });
+}
+
+Volume label_volume(const Grid& grid, const std::string& type, std::shared_ptr<const void> samples,
+                    std::vector<std::string>* warnings) {
+    const auto found = value_type_of(type);
+    if (!found) fail("type: found \"{}\", expected one of {}", type, value_type_list());
+    Grid voxels = grid;
+    voxels.lookup = VolumeLookup::nearest;
+    const StoredSamples numbers{"array", *found, std::const_pointer_cast<void>(samples)};
+    std::vector<std::string> said;
+    return keep_warnings(warnings == nullptr ? said : *warnings,
+                         [&] { return drawn_volume(voxels, numbers, voxels.lookup); });
 }
 
 MeshData load_mesh_data(const std::filesystem::path& file,

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "base/error.h"
 #include "optics/pieces.h"
@@ -194,9 +195,10 @@ TransferFunction::TransferFunction(std::span<const TransferKnot> knots) {
     }
 }
 
-TransferFunction TransferFunction::with_codes() const {
+TransferFunction TransferFunction::with_codes(std::string labels) const {
     TransferFunction result = *this;
     result.of_codes_ = true;
+    result.labels_ = std::move(labels);
     return result;
 }
 

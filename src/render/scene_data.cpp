@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/scene_data.h"
 
+#include "base/error.h"
 #include "base/profile.h"
 #include "mesh/tet_mesh.h"
 #include "scene/given_transfer.h"
+#include "volume/labels.h"
 
 namespace lamina {
 namespace {
@@ -105,14 +107,18 @@ void SceneData::close_transfer_function(Scene& scene) {
     if (scene.transfer_function.is_automatic() || scene.draws_mesh()) return;
     const TransferFunction& given = *scene.transfer_function;
     // The range of the data is one of codes.
-    scene.transfer_function =
-        open ? marked(scene, given) : over_codes(given, volume(scene)->volume);
+    try {
+        scene.transfer_function =
+            open ? marked(scene, given) : over_codes(given, volume(scene)->volume);
+    } catch (const GivenTransferError& error) {
+        fail("{}: transfer_function.{}: {}", scene.file.string(), error.key, error.what());
+    }
 }
 
 TransferFunction SceneData::marked(const Scene& scene, const TransferFunction& drawn) {
     if (scene.draws_mesh()) return drawn;
-    const auto& labels = volume(scene)->volume.labels();
-    return labels && labels->renumbered ? drawn.with_codes() : drawn;
+    const std::string identity = identity_of_codes(volume(scene)->volume);
+    return identity.empty() ? drawn : drawn.with_codes(identity);
 }
 
 void SceneData::forget_mesh() {

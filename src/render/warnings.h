@@ -37,21 +37,6 @@ Warnings trace_warnings(std::int64_t overlapping_rays);
 
 void warn_of_all(const Warnings& all);
 
-// Returns work(), and keeps copies of its warnings in `said`.
-template <typename Work>
-auto keep_warnings(Warnings& said, const Work& work) {
-    said.clear();
-    Client client = ClientScope::current();
-    const WarningTaker* const taker = client.warnings;
-    const WarningTaker keeper = [&](const std::string& text) {
-        said.push_back(text);
-        if (taker != nullptr && *taker) (*taker)(text);
-    };
-    client.warnings = &keeper;
-    const ClientScope scope(std::move(client));
-    return work();
-}
-
 // Warns if the picture shows nothing, with the reason; if more than half of the pixels that show
 // something are saturated; and if the colours change only outside the data's range. Nothing in the
 // scene may be automatic; `field` is that of its data.

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/client.h"
 #include "base/enum_words.h"
 #include "optics/colormap.h"
+#include "volume/labels.h"
 
 namespace lamina {
 namespace {
@@ -82,16 +84,36 @@ std::filesystem::path GivenTransfer::colormap_file() const {
 TransferFunction transfer_function_of(const GivenTransfer& given, const ValueRange& data) {
     const TransferFunction made =
         given.map ? colored_by_map(given, data) : colored_by_points(given);
-    return given.codes ? made.with_codes() : made;
+    return given.codes ? made.with_codes(given.codes_of) : made;
 }
 
 TransferFunction over_codes(const TransferFunction& function, const Volume& volume) {
-    const auto& labels = volume.labels();
-    if (function.of_codes() || !labels || !labels->renumbered) return function;
+    const std::string identity = identity_of_codes(volume);
+    if (function.of_codes()) {
+        if (function.labels().empty() || function.labels() == identity) return function;
+        throw GivenTransferError(
+            "codes_of",
+            "the function has codes of other labels than the volume has, which was changed or is "
+            "another one: expected points of the labels' numbers, without \"codes\", or no "
+            "function");
+    }
+    if (identity.empty()) return function;
+    const std::vector<Label>& labels = volume.labels()->list;
     std::vector<TransferKnot> points;
-    for (const Label& label : labels->list)
-        points.push_back({label.code, function.at(std::strtod(label.number.c_str(), nullptr))});
-    return TransferFunction::nearest(points).with_codes();
+    std::vector<double> numbers;
+    for (const Label& label : labels) {
+        numbers.push_back(std::strtod(label.number.c_str(), nullptr));
+        points.push_back({label.code, function.at(numbers.back())});
+    }
+    if (const auto same = std::ranges::adjacent_find(numbers); same != numbers.end()) {
+        const auto place = static_cast<std::size_t>(same - numbers.begin());
+        warn(
+            fmt::format("transfer_function: values are doubles, which do not tell labels {} and {} "
+                        "apart: with \"codes\" values are places of labels in the list of lamina "
+                        "info, from 0",
+                        labels[place].number, labels[place + 1].number));
+    }
+    return TransferFunction::nearest(points).with_codes(identity);
 }
 
 bool has_open_colormap(const Scene& scene) {

@@ -31,6 +31,7 @@ struct GivenTransfer {
     std::optional<Colormap> map;      // the colour map as read, at its own values
     Auto<ValueRange> colormap_range;  // range that the map is stretched over
     bool codes = false;               // TransferFunction::of_codes()
+    std::string codes_of;             // TransferFunction::labels()
     std::string place;                // file and key, for messages: "scene.json: transfer_function"
 
     // Tells whether the map is stretched over the range of the data.
@@ -51,7 +52,9 @@ class GivenTransferError : public Error {
 inline constexpr double largest_map_value = 1e300;
 
 // Returns a function of the numbers of a volume's labels as one of their codes (VolumeLabels): each
-// label keeps its optics. Returns other functions, and those of other volumes, as they are.
+// label keeps its optics. Returns other functions, and those of other volumes, as they are. Throws
+// GivenTransferError if the function is one of the codes of other labels. Warns if a double does
+// not tell two numbers apart.
 TransferFunction over_codes(const TransferFunction& function, const Volume& volume);
 
 // Makes the transfer function. `data`: the range that an open map is stretched over; a single value

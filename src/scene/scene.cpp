@@ -200,12 +200,15 @@ const char* name_of(TableConstruction construction) {
     return word_of(construction, {"exact", "incremental"});
 }
 
-Volume load_volume(const Scene& scene, const std::filesystem::path& only_below) {
+Volume load_volume(const Scene& scene, const std::filesystem::path& only_below,
+                   std::vector<std::string>* warnings) {
     const OnlyBelowScope scope(only_below);
     if (const auto* request = std::get_if<GeneratorRequest>(&scene.volume))
         return generate(*request);
     const VolumeFile& file = file_of_volume(scene);
-    return read_volume(file.path, file.selection);
+    std::vector<std::string> said;
+    return keep_warnings(warnings == nullptr ? said : *warnings,
+                         [&] { return read_volume(file.path, file.selection); });
 }
 
 Volume open_volume(const Scene& scene) {

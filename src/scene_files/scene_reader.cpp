@@ -64,6 +64,7 @@ nlohmann::ordered_json transfer_function_json(const TransferFunction& transfer_f
     }
     nlohmann::ordered_json json{{"points", points}};
     if (transfer_function.of_codes()) json["codes"] = true;
+    if (!transfer_function.labels().empty()) json["codes_of"] = transfer_function.labels();
     return json;
 }
 

@@ -238,6 +238,8 @@ void transfer_keys(KeyTable<GivenTransfer>& keys) {
     keys.last().write = [](const GivenTransfer& given, KeyJson& json) {
         if (given.codes) json["codes"] = true;
     };
+    keys.key("codes_of", &GivenTransfer::codes_of, text_form(),
+             "Which labels the codes are of, as lamina writes it: a volume of others is refused.");
     keys.add(colormap_key()).add(range_key()).add(points_key());
 }
 

@@ -5,14 +5,17 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/client.h"
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "image/coded_image.h"
 #include "volume/distance_shapes.h"
 #include "volume/generate.h"
 #include "volume/gradient_noise.h"
+#include "volume/labels.h"
 
 // Places are in mm: x to the left, y to the back, z upwards, 0 in the middle of the head, between
 // the ears. The numbers only shape the head; nothing measures with them.
@@ -362,6 +365,26 @@ void for_each_voxel(const char* what, const Store& store) {
     });
 }
 
+// Returns names and colours of the tissues.
+std::vector<Label> tissue_labels() {
+    std::vector<Label> labels;
+    const auto add = [&](int tissue, const char* name, const glm::dvec3& display) {
+        glm::dvec3 color;
+        for (int c = 0; c < 3; ++c) color[c] = linear_from_srgb(display[c]);
+        labels.push_back({.number = std::to_string(tissue), .name = name, .color = color});
+    };
+    add(skull, "skull", {0.90, 0.82, 0.62});
+    add(jaw, "jaw", {0.80, 0.62, 0.40});
+    add(teeth, "teeth", {0.98, 0.98, 0.95});
+    add(spine, "spine", {0.60, 0.75, 0.45});
+    add(cerebrum, "cerebrum", {0.90, 0.52, 0.50});
+    add(cerebellum, "cerebellum", {0.66, 0.42, 0.78});
+    add(brain_stem, "brain stem", {0.95, 0.70, 0.25});
+    add(ventricles, "ventricles", {0.25, 0.52, 0.88});
+    add(eyes, "eyes", {0.30, 0.70, 0.65});
+    return labels;
+}
+
 }  // namespace
 
 Volume head_ct() {
@@ -375,7 +398,7 @@ Volume head_ct() {
         values[index] = static_cast<std::int16_t>(
             std::floor(std::max(voxel.hu + scanner_noise * noise, -1024.0) + 0.5));
     });
-    return {grid, SampleType::int16, samples};
+    return Volume(grid, SampleType::int16, samples).measuring({"", "HU"});
 }
 
 Volume head_labels() {
@@ -387,19 +410,7 @@ Volume head_labels() {
     for_each_voxel("making the labels", [&](std::int64_t index, const Voxel& voxel) {
         values[index] = voxel.tissue == soft_tissue ? nothing : voxel.tissue;
     });
-    return {grid, SampleType::uint8, samples};
-}
-
-std::vector<NrrdSegment> head_segments() {
-    return {{skull, "skull", {0.90, 0.82, 0.62}},
-            {jaw, "jaw", {0.80, 0.62, 0.40}},
-            {teeth, "teeth", {0.98, 0.98, 0.95}},
-            {spine, "spine", {0.60, 0.75, 0.45}},
-            {cerebrum, "cerebrum", {0.90, 0.52, 0.50}},
-            {cerebellum, "cerebellum", {0.66, 0.42, 0.78}},
-            {brain_stem, "brain stem", {0.95, 0.70, 0.25}},
-            {ventricles, "ventricles", {0.25, 0.52, 0.88}},
-            {eyes, "eyes", {0.30, 0.70, 0.65}}};
+    return with_descriptions({grid, SampleType::uint8, samples}, tissue_labels());
 }
 
 }  // namespace lamina

@@ -2,10 +2,7 @@
 // A head made of analytic shapes: as a CT would show it, and as a map of its tissues.
 #pragma once
 
-#include <vector>
-
 #include "lamina/volume.h"
-#include "volume/nrrd_writer.h"
 
 namespace lamina {
 
@@ -13,10 +10,7 @@ namespace lamina {
 // axes (left, posterior, superior), with the noise of a scanner. Parallel, with progress.
 Volume head_ct();
 
-// Returns the tissue of each voxel of head_ct() as uint8; 0 is no tissue of head_segments().
+// Returns the tissue of each voxel of head_ct() as uint8, with names and colours; 0 is none.
 Volume head_labels();
-
-// Returns the names and colours of the tissues.
-std::vector<NrrdSegment> head_segments();
 
 }  // namespace lamina

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -28,17 +28,36 @@ bool is_whole_label(T value) {
         return value == std::trunc(value) && std::abs(value) <= T(0x1p53);
 }
 
-// Returns the share of samples that equal their six neighbours (beyond the border, themselves) if
-// samples in memory are taken for labels, else nothing. They are if
+// How samples compare with labels (docs/scene.md, "Labels").
+struct LabelSigns {
+    enum class Verdict {
+        none,
+        scattered,  // all signs, but too few samples equal their neighbours
+        smooth,     // all signs, but values that touch differ mostly by 1, as in a rounded field
+        labels
+    };
+    Verdict verdict = Verdict::none;
+    double equal = 0;   // share of samples that equal their six neighbours
+    double by_one = 0;  // share of unequal neighbours that differ by 1
+
+    bool are_labels() const { return verdict == Verdict::labels; }
+};
+
+// Measures samples in memory. They are taken for labels if
 //   - all are whole numbers, of 2 to most_label_codes values,
-//   - at least 95 % equal their six neighbours, and
-//   - so do at least half of all pairs of neighbours of which neither has the most frequent value:
-//     the inside of what a CT shows in empty air is noisy.
+//   - at least 95 % equal their six neighbours (beyond the border, themselves),
+//   - at least half of the values have an inside: an equal pair of neighbours for every
+//     two unequal ones. Pairs with the most frequent value do not count: most CTs are empty air,
+//     and what they show is noisy; blurred edges have values that lie nowhere side by side. And
+//   - there are up to 4 values, or less than 90 % of unequal neighbours differ by 1.
 // Evenly spread slices are measured if there are more than 2^24 samples: of 2^22, but at least 8.
-std::optional<double> share_if_labels(const std::array<std::int64_t, 3>& size, ValueType type,
-                                      const void* samples);
+LabelSigns label_signs(const std::array<std::int64_t, 3>& size, ValueType type,
+                       const void* samples);
 // Measures a volume of whole numbers, which may stay in its files; others are not taken for labels.
-std::optional<double> share_if_labels(const Volume& volume);
+LabelSigns label_signs(const Volume& volume);
+
+// Returns a text that other lists of numbers do not have; empty if samples are the file's numbers.
+std::string identity_of_codes(const Volume& volume);
 
 // Returns the volume with names and colours for labels that its file describes by their numbers.
 // The codes of `described` are ignored.

@@ -260,7 +260,7 @@ Json json_of(const std::shared_ptr<const VolumeLabels>& labels) {
     if (!labels) return nullptr;
     Json list = Json::array();
     for (const Label& label : labels->list) {
-        list.push_back({label.code, label.number, label.name, nullptr});
+        list.push_back({label.code, label.number, label.name, nullptr, label.opacity});
         if (label.color) list.back()[3] = json_of(*label.color);
     }
     return {{"renumbered", labels->renumbered}, {"list", list}};
@@ -272,6 +272,7 @@ std::shared_ptr<const VolumeLabels> labels_in(const Json& json) {
     for (const Json& entry : json.at("list")) {
         labels.list.push_back({entry.at(0), entry.at(1), entry.at(2)});
         if (!entry.at(3).is_null()) labels.list.back().color = vector_in(entry.at(3));
+        if (entry.size() > 4) labels.list.back().opacity = entry[4];  // an older copy has none
     }
     return std::make_shared<const VolumeLabels>(std::move(labels));
 }

@@ -279,13 +279,15 @@ constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
 // Most bytes of a line with a field: teem prints wrong lines into buffers of some 1000 bytes.
 constexpr std::size_t line_limit = 512;
 
+constexpr const char* lookup_key = "lamina_lookup";  // key/value pair that lamina writes
+
 // A header, cut into the lines that teem interprets and what lamina reads itself.
 struct HeaderText {
     std::string text;  // magic and fields, without `data file` and remarks
     std::optional<NrrdDataFiles> data_files;
     std::set<std::string> fields;  // names of all fields, lower case
-    // Key/value pairs of 3D Slicer's segmentations ("Segment0_Name:=liver").
-    std::map<std::string, std::string> segment_keys;
+    // Key/value pairs of 3D Slicer's segmentations ("Segment0_Name:=liver"), and lamina's own.
+    std::map<std::string, std::string> keys;
     std::int64_t length = 0;  // bytes up to and including the empty line
     bool ended = false;       // the header ends with an empty line, not with the file
 };
@@ -404,8 +406,9 @@ HeaderText split_header(const std::string& path, const std::string& bytes) {
                                         [](unsigned char c) { return c < ' ' && c != '\t'; });
         if (binary) fail("{}: line {} of the NRRD header holds binary bytes", path, number);
         const auto field = field_of(line);
-        if (const auto mark = line.find(":="); line.starts_with("Segment") && mark < line.size())
-            header.segment_keys.emplace(line.substr(0, mark), line.substr(mark + 2));
+        const bool has_key = line.starts_with("Segment") || line.starts_with(lookup_key);
+        if (const auto mark = line.find(":="); has_key && mark < line.size())
+            header.keys.emplace(line.substr(0, mark), line.substr(mark + 2));
         if (field) {
             header.fields.insert(field->name);
             if (field->name == "sizes") check_sizes(path, number, *field);
@@ -477,8 +480,8 @@ struct NrrdHeader {
     double first_time = 0, time_step = NAN;  // of the axis of times; NaN: not known
     std::string time_unit;
     std::string sample_unit;
-    bool is_segmentation = false;
-    std::vector<Label> labels;  // of a segmentation
+    std::string labels_by{};      // what says that samples are labels, for a message; else empty
+    std::vector<Label> labels{};  // of a segmentation
 };
 
 // Completes what open_stored() has listed.
@@ -504,35 +507,58 @@ std::optional<glm::dvec3> segment_color(const std::string& text) {
     return color;
 }
 
-// Returns the labels of a segmentation of 3D Slicer in the layer (channel) that is read, and says
-// what they mean (https://slicer.readthedocs.io, "Segmentations", "Segmentation file format").
-std::vector<Label> segments_of(const std::string& file,
-                               const std::map<std::string, std::string>& keys,
-                               const VolumeRequest& request) {
+// Returns the opacity of a segment, which lamina writes if it is not 1; nothing if it is none.
+std::optional<double> segment_opacity(const std::string& text) {
+    double opacity = -1;
+    std::istringstream(text) >> opacity;
+    return opacity >= 0 && opacity <= 1 ? std::optional(opacity) : std::nullopt;
+}
+
+// Returns the number of a label in canonical digits; nothing if it is none.
+std::optional<std::string> label_number(const std::string& digits) {
+    if (const auto number = whole_number(digits)) return std::to_string(*number);
+    std::uint64_t number = 0;
+    const char* const end = digits.data() + digits.size();
+    const auto [stop, error] = std::from_chars(digits.data(), end, number);
+    if (error != std::errc{} || stop != end) return {};
+    return std::to_string(number);
+}
+
+// Takes the labels of a segmentation of 3D Slicer in the layer (channel) that is read, and what
+// they mean (https://slicer.readthedocs.io, "Segmentations", "Segmentation file format"); or
+// lamina's own key, which a saved volume of labels has.
+void take_label_keys(const std::map<std::string, std::string>& keys, const VolumeRequest& request,
+                     NrrdHeader& header) {
     constexpr int most_named = 32;
     std::string names;
-    std::vector<Label> labels;
     int count = 0;
     const auto text = [&](const char* key) {
         const auto found = keys.find(fmt::format("Segment{}_{}", count, key));
-        return found == keys.end() ? std::string("?") : one_line(found->second);
+        return found == keys.end() ? std::string() : one_line(found->second);
     };
-    const auto value = [&](const char* key) { return text(key).substr(0, 40); };
+    const auto shown = [](const std::string& value) {
+        return value.empty() ? "?" : value.substr(0, 40);
+    };
     for (; keys.contains(fmt::format("Segment{}_ID", count)); ++count) {
-        const std::string layer = value("Layer") == "?" ? "0" : value("Layer");
-        if (const auto number = whole_number(value("LabelValue"));
-            number && layer == std::to_string(request.channel.value_or(0)))
-            labels.push_back(
-                {0, std::to_string(*number), text("Name"), segment_color(text("Color"))});
+        const std::string layer = text("Layer").empty() ? "0" : text("Layer");
+        const auto number = label_number(text("LabelValue"));
+        if (number && layer == std::to_string(request.channel.value_or(0))) {
+            header.labels.push_back({0, *number, text("Name"), segment_color(text("Color"))});
+            if (const auto opacity = segment_opacity(text("Opacity")))
+                header.labels.back().opacity = *opacity;
+        }
         if (count >= most_named) continue;
-        names += fmt::format("{}{} is \"{}\"", count == 0 ? "" : ", ", value("LabelValue"),
-                             value("Name"));
-        if (layer != "0") names += fmt::format(" (channel {})", layer);
+        names += fmt::format("{}{} is \"{}\"", count == 0 ? "" : ", ", shown(text("LabelValue")),
+                             shown(text("Name")));
+        if (layer != "0") names += fmt::format(" (channel {})", shown(layer));
     }
-    if (count == 0) return labels;
-    warn(fmt::format("{}: a segmentation of 3D Slicer, whose samples are labels: {}{}", file, names,
-                     count > most_named ? ", ..." : ""));
-    return labels;
+    const auto own = keys.find(lookup_key);
+    if (count > 0) {
+        header.labels_by =
+            fmt::format("the list of segments ({}{})", names, count > most_named ? ", ..." : "");
+    } else if (own != keys.end() && own->second == "nearest") {
+        header.labels_by = fmt::format("its key {}", lookup_key);
+    }
 }
 
 NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeRequest& request) {
@@ -578,8 +604,7 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeReque
         header.time_unit = axis.units == nullptr ? "" : unit_word(axis.units);
     }
     if (nrrd->sampleUnits != nullptr) header.sample_unit = unit_word(nrrd->sampleUnits);
-    header.labels = segments_of(name, text.segment_keys, request);
-    header.is_segmentation = text.segment_keys.contains("Segment0_ID");
+    take_label_keys(text.keys, request, header);
     if (!std::isnan(nrrd->oldMin) || !std::isnan(nrrd->oldMax)) {
         warn(
             fmt::format("{}: old min, old max: found {} and {}, the range before the samples were "
@@ -600,8 +625,8 @@ bool is_nrrd(const std::filesystem::path& path) {
 Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use) {
     NrrdHeader header = read_nrrd_header(path, request);
-    if (header.is_segmentation)
-        take_for_labels(path.string(), "the list of segments", use, header.grid);
+    if (!header.labels_by.empty())
+        take_for_labels(path.string(), header.labels_by, use, header.grid);
     Volume volume = open_stored(header.grid, header.data, use);
     if (!header.labels.empty()) volume = with_descriptions(volume, std::move(header.labels));
     if (use.contents != nullptr) fill_nrrd_contents(header, *use.contents);

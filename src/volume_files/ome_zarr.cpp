@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // OME-Zarr: ngff.openmicroscopy.org/0.4 and 0.5, "multiscales" metadata.
 #include <algorithm>
+#include <map>
 
 #include "base/client.h"
 #include "image/coded_image.h"
@@ -46,26 +47,46 @@ class OmeZarrReader {
     }
 
   private:
-    // Reads the colours of labels, sRGB of 8 bits.
+    // Reads the colours of labels, sRGB of 8 bits with opacity, and their names. The format names
+    // no key for these.
     static std::vector<Label> labels_in(const Json& about) {
-        std::vector<Label> labels;
-        const Json* const colors = member_of(about, "colors");
-        if (colors == nullptr || !colors->is_array()) return labels;
-        for (const Json& entry : *colors) {
-            const Json *const number = member_of(entry, "label-value"), *const rgba = member_of(
-                                                                            entry, "rgba");
-            if (number == nullptr || !number->is_number_integer() || rgba == nullptr) continue;
-            Label& label = labels.emplace_back(Label{0, number->dump()});
-            glm::dvec3 color;
-            bool good = rgba->is_array() && rgba->size() >= 3;
-            for (int channel = 0; good && channel < 3; ++channel) {
-                const Json& stored = (*rgba)[static_cast<std::size_t>(channel)];
-                good = stored.is_number() && stored >= 0 && stored <= 255;
-                if (good) color[channel] = linear_from_srgb(stored.get<double>() / 255);
+        std::map<std::string, Label> labels;  // by number
+        for_each_label(about, "colors", labels, [](const Json& entry, Label& label) {
+            const Json* const rgba = member_of(entry, "rgba");
+            if (rgba == nullptr || !rgba->is_array() || rgba->size() < 3) return;
+            double shares[4] = {0, 0, 0, 1};
+            for (std::size_t i = 0; i < std::min<std::size_t>(rgba->size(), 4); ++i) {
+                const Json& stored = (*rgba)[i];
+                if (!stored.is_number() || stored < 0 || stored > 255) return;
+                shares[i] = stored.get<double>() / 255;
             }
-            if (good) label.color = color;
+            label.color = {linear_from_srgb(shares[0]), linear_from_srgb(shares[1]),
+                           linear_from_srgb(shares[2])};
+            label.opacity = shares[3];
+        });
+        for_each_label(about, "properties", labels, [](const Json& entry, Label& label) {
+            for (const char* const key : {"name", "label", "class", "label-name", "acronym"})
+                if (label.name.empty()) label.name = one_line(text_member(entry, key));
+        });
+        std::vector<Label> list;
+        for (const auto& [number, label] : labels) list.push_back(label);
+        return list;
+    }
+
+    // Calls visit(entry, label) for the entries of a list in "image-label", which have the number
+    // of a label each.
+    template <typename Visit>
+    static void for_each_label(const Json& about, const char* key,
+                               std::map<std::string, Label>& labels, const Visit& visit) {
+        const Json* const list = member_of(about, key);
+        if (list == nullptr || !list->is_array()) return;
+        for (const Json& entry : *list) {
+            const Json* const number = member_of(entry, "label-value");
+            if (number == nullptr || !number->is_number_integer()) continue;
+            Label& label = labels[number->dump()];
+            label.number = number->dump();
+            visit(entry, label);
         }
-        return labels;
     }
 
     Path folder_of(const Json& dataset) const {

@@ -18,7 +18,6 @@
 #include "base/enum_words.h"
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "volume/labels.h"
 #include "volume/sample_source.h"
 
 namespace lamina {
@@ -159,9 +158,7 @@ bool are_labels(const Grid& grid, const StoredSamples& samples,
                 const std::optional<VolumeLookup>& lookup) {
     if (lookup) return *lookup == VolumeLookup::nearest;
     if (grid.lookup == VolumeLookup::nearest) return true;
-    const auto share = share_if_labels(grid.size, samples.type, samples.bytes.get());
-    if (share) say_measured_labels(samples.file, *share);
-    return share.has_value();
+    return taken_by_signs(samples.file, label_signs(grid.size, samples.type, samples.bytes.get()));
 }
 
 // Returns the values of labels in increasing order; nothing if they are too many or not all whole.
@@ -223,6 +220,19 @@ std::optional<Volume> labelled(Grid grid, const StoredSamples& samples) {
     return Volume(grid, codes, filled(codes, count, code)).labelled(labels);
 }
 
+// Warns if the file, and not the user, says that samples are labels that are no whole numbers.
+void warn_of_no_labels(const Grid& grid, const StoredSamples& samples,
+                       const std::optional<VolumeLookup>& lookup) {
+    if (lookup || grid.lookup != VolumeLookup::nearest) return;
+    warn(fmt::format(
+        "{}: its samples are labels, but{} no whole numbers, so that no label has a "
+        "colour of its own",
+        samples.file,
+        samples.is_plain()
+            ? ""
+            : fmt::format(", scaled by {} and shifted by {},", samples.scale, samples.offset)));
+}
+
 template <typename From>
 Volume narrowed(const Grid& grid, const StoredSamples& samples,
                 const std::optional<VolumeLookup>& lookup) {
@@ -242,6 +252,8 @@ Volume narrowed(const Grid& grid, const StoredSamples& samples,
         if (std::is_integral_v<From>)
             warn(fmt::format("{}: more than {} labels, which are drawn as numbers of type float",
                              samples.file, most_label_codes));
+        else
+            warn_of_no_labels(grid, samples, lookup);
     }
     if (std::is_same_v<From, float>) return Volume(voxels, SampleType::float32, samples.bytes);
     const std::shared_ptr<void> memory =
@@ -251,19 +263,72 @@ Volume narrowed(const Grid& grid, const StoredSamples& samples,
 }
 
 template <typename From>
-Volume scaled(const Grid& grid, const StoredSamples& samples) {
+double scaled_value(const StoredSamples& samples, std::int64_t i) {
     const auto* const from = static_cast<const From*>(samples.bytes.get());
+    return samples.scale * static_cast<double>(from[i]) + samples.offset;
+}
+
+// Returns how far a scaled value may be from the whole number that it stands for. Programs that
+// scale floats to integers round by up to half a step: a small one proves that labels were meant.
+// Headers round scale and offset to float.
+double label_tolerance(const StoredSamples& samples, double value) {
+    constexpr double largest_step = .1, relative = 1e-6, largest = .25;
+    const double step = std::abs(samples.scale);
+    const double rounded = is_integer(samples.type) && step <= largest_step ? step / 2 : 0;
+    return std::min(largest, rounded + relative * (1 + std::abs(samples.offset) + std::abs(value)));
+}
+
+// Returns the volume of labels whose numbers are the scaled values; nothing if these are not whole.
+template <typename From>
+std::optional<Volume> scaled_labels(const Grid& grid, const StoredSamples& samples) {
+    const std::int64_t count = grid.sample_count();
+    StoredSamples numbers{samples.file, ValueType::float64,
+                          filled_memory(static_cast<std::size_t>(count) * sizeof(double))};
+    auto* const to = static_cast<double*>(numbers.bytes.get());
+    double farthest = 0;
+    bool whole = true;
+    std::mutex merging;
+    for_parts(count, [&](std::int64_t begin, std::int64_t end) {
+        double far = 0;
+        bool good = true;
+        for (std::int64_t i = begin; i < end; ++i) {
+            const double value = scaled_value<From>(samples, i);
+            to[i] = std::round(value);
+            const double distance = std::abs(value - to[i]);
+            good = good && distance <= label_tolerance(samples, value);
+            far = std::max(far, distance);
+        }
+        const std::lock_guard lock(merging);
+        whole = whole && good;
+        farthest = std::max(farthest, far);
+    });
+    if (!whole) return {};
+    if (farthest > 0) {
+        warn(
+            fmt::format("{}: its labels, scaled by {} and shifted by {}, are the nearest whole "
+                        "numbers, up to {:.2g} away",
+                        samples.file, samples.scale, samples.offset, farthest));
+    }
+    return labelled<double>(grid, numbers);
+}
+
+template <typename From>
+Volume scaled(const Grid& grid, const StoredSamples& samples,
+              const std::optional<VolumeLookup>& lookup) {
+    if (lookup.value_or(grid.lookup) == VolumeLookup::nearest) {
+        if (auto volume = scaled_labels<From>(grid, samples)) return *volume;
+        warn_of_no_labels(grid, samples, lookup);
+    }
     const double scale = samples.scale, offset = samples.offset;
-    const auto value = [&](std::int64_t i) {
-        return scale * static_cast<double>(from[i]) + offset;
-    };
     SampleType type = SampleType::float32;
     if (std::is_integral_v<From> && scale == std::trunc(scale) && offset == std::trunc(offset)) {
+        const auto* const from = static_cast<const From*>(samples.bytes.get());
         const Range<From> range = range_of(from, grid.sample_count());
         const double ends[] = {scale * static_cast<double>(range.lo) + offset,
                                scale * static_cast<double>(range.hi) + offset};
         type = type_for(std::min(ends[0], ends[1]), std::max(ends[0], ends[1]));
     }
+    const auto value = [&](std::int64_t i) { return scaled_value<From>(samples, i); };
     return Volume(grid, type, filled(type, grid.sample_count(), value));
 }
 
@@ -324,21 +389,40 @@ std::optional<SampleType> drawn_type(ValueType type) {
     return value_of_word<SampleType>(name_of(type));
 }
 
-void say_measured_labels(const std::string& file, double share) {
+bool taken_by_signs(const std::string& file, const LabelSigns& signs) {
+    using Verdict = LabelSigns::Verdict;
+    if (signs.verdict == Verdict::none) return false;
+    const std::string equal =
+        fmt::format("{:.3g} % of them equal their six neighbours", 100 * signs.equal);
+    if (signs.are_labels()) {
+        warn(
+            fmt::format("{}: its samples are taken for labels, as {}: \"lookup\": \"linear\" in "
+                        "the volume interpolates between them",
+                        file, equal));
+        return true;
+    }
+    const std::string but =
+        signs.verdict == Verdict::scattered
+            ? fmt::format("but only {}, fewer than 95 %", equal)
+            : fmt::format(
+                  "as {}, but {:.3g} % of unequal neighbours differ by 1, as in a smooth "
+                  "field that was rounded",
+                  equal, 100 * signs.by_one);
     warn(
-        fmt::format("{}: its samples are taken for labels, as {:.3g} % of them equal their six "
-                    "neighbours: \"lookup\": \"linear\" in the volume interpolates between them",
-                    file, 100 * share));
+        fmt::format("{}: its samples look like labels, {}: they are taken for a field, and "
+                    "\"lookup\": \"nearest\" in the volume takes them for labels",
+                    file, but));
+    return false;
 }
 
 Volume drawn_volume(const Grid& grid, const StoredSamples& samples,
                     const std::optional<VolumeLookup>& lookup) {
-    const bool plain = samples.scale == 1 && samples.offset == 0;
+    const bool plain = samples.is_plain();
     const auto type = drawn_type(samples.type);
     if (plain && type && *type != SampleType::float32) return Volume(grid, *type, samples.bytes);
     return with_type(samples.type, [&](auto zero) {
         using From = decltype(zero);
-        return plain ? narrowed<From>(grid, samples, lookup) : scaled<From>(grid, samples);
+        return plain ? narrowed<From>(grid, samples, lookup) : scaled<From>(grid, samples, lookup);
     });
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/value_type.h"
 #include "lamina/volume.h"
+#include "volume/labels.h"
 
 namespace lamina {
 
@@ -20,6 +21,8 @@ struct StoredSamples {
     std::shared_ptr<void> bytes;
     double scale = 1;  // finite, not 0
     double offset = 0;
+
+    bool is_plain() const { return scale == 1 && offset == 0; }
 };
 
 // Convert binary16 (IEEE 754), which was read as uint16 in native byte order, to float.
@@ -41,12 +44,14 @@ std::optional<SampleType> drawn_type(ValueType type);
 // uint16 and float that holds all of them; all others become float. Values that float does not hold
 // are rounded, or become infinite; one warning counts those of unscaled samples.
 // Whole numbers that become or are floats may be labels: if `lookup` or, without it, the grid or
-// share_if_labels() says so, they become the first of uint8, int16 and uint16 that holds all of
-// them, else codes (VolumeLabels), and a warning says so.
+// label_signs() says so, they become the first of uint8, int16 and uint16 that holds all of
+// them, else codes (VolumeLabels), and a warning says so. Scaled samples are labels only if
+// `lookup` or the grid says so. A warning says if the grid calls samples labels that are not whole.
 Volume drawn_volume(const Grid& grid, const StoredSamples& samples,
                     const std::optional<VolumeLookup>& lookup);
 
-// Warns that samples are taken for labels, because this share of them equals its neighbours.
-void say_measured_labels(const std::string& file, double share);
+// Tells if samples are taken for labels by their signs. A warning says so, or why they are not if
+// they look like labels.
+bool taken_by_signs(const std::string& file, const LabelSigns& signs);
 
 }  // namespace lamina

@@ -212,9 +212,7 @@ void expect_known_keys(const Path& path, const VolumeFormat& format, const Volum
 bool are_measured_labels(const Path& path, const Volume& volume, const VolumeUse& use) {
     if (use.lookup || volume.grid().lookup == VolumeLookup::nearest) return false;
     if (!volume.in_memory() && use.residence == VolumeUse::Residence::in_order) return false;
-    const auto share = share_if_labels(volume);
-    if (share) say_measured_labels(path.string(), *share);
-    return share.has_value();
+    return taken_by_signs(path.string(), label_signs(volume));
 }
 
 // Replaces spacing and origin of the file by those of the request, if it has any, and settles the

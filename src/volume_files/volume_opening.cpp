@@ -152,7 +152,8 @@ constexpr double gradient_bytes = 8, float_bytes = 4;  // for each sample
 
 }  // namespace
 
-void take_for_labels(const std::string& file, const char* who, const VolumeUse& use, Grid& grid) {
+void take_for_labels(const std::string& file, const std::string& who, const VolumeUse& use,
+                     Grid& grid) {
     if (use.lookup) return;
     grid.lookup = VolumeLookup::nearest;
     warn(

@@ -71,7 +71,8 @@ struct VolumeUse {
 
 // Takes samples for labels because the file says that they are, unless the user says how samples
 // are looked up. `who`: what of the file says so, for a warning.
-void take_for_labels(const std::string& file, const char* who, const VolumeUse& use, Grid& grid);
+void take_for_labels(const std::string& file, const std::string& who, const VolumeUse& use,
+                     Grid& grid);
 
 // Tells if a volume that can stay in its files is to do so: by use.residence; for as_fits, if it
 // and its derived data for drawing exceed the memory limit (base/memory.h).

@@ -81,6 +81,53 @@ TEST(AutomaticTransfer, TakesColoursOfLabelsFromTheirFile) {
     EXPECT_NE(chosen.reason.find("labels: 0, "), std::string::npos) << chosen.reason;
 }
 
+TEST(AutomaticTransfer, TakesOpacitiesOfLabelsFromTheirFile) {
+    VolumeLabels labels{false, {{1, "1", "", glm::dvec3(1)}, {2, "2"}}};
+    labels.list[0].opacity = 0;
+    labels.list[1].opacity = .5;
+    const ValueDistribution values({{0, 70}, {1, 10}, {2, 10}, {3, 10}});
+    const auto function =
+        choose_transfer_function(values, true, {}, least_padding, &labels).transfer_function;
+    EXPECT_EQ(function.at(1).extinction, 0);
+    EXPECT_EQ(function.at(2).extinction, .5);
+    EXPECT_EQ(function.at(3).extinction, 1);
+}
+
+// A range has the file's numbers, whatever codes stand for them.
+TEST(AutomaticTransfer, OfLabelsShowsTheNumbersInARange) {
+    const VolumeLabels labels{true,
+                              {{0, "0"}, {1, "9"}, {2, "5000000000"}, {3, "9007199254740993"}}};
+    const ValueDistribution values({{0, 70}, {1, 10}, {2, 10}, {3, 10}});
+    TransferAdjustments adjustments;
+    adjustments.range = ValueRange{8, 5e9};
+    const AutomaticTransfer chosen =
+        choose_transfer_function(values, true, adjustments, least_padding, &labels);
+    const bool shown[] = {false, true, true, false};
+    for (int code = 0; code < 4; ++code)
+        EXPECT_EQ(chosen.transfer_function.at(code).extinction > 0, shown[code]) << code;
+    EXPECT_NE(chosen.reason.find("labels from 8 to 5000000000 show"), std::string::npos)
+        << chosen.reason;
+    // 2^53 + 1, which no double is.
+    adjustments.range = ValueRange{5e9, 0x1p53};
+    EXPECT_EQ(choose_transfer_function(values, true, adjustments, least_padding, &labels)
+                  .transfer_function.at(3)
+                  .extinction,
+              0);
+}
+
+TEST(AutomaticTransfer, OfOneLabelShowsItUnlessItIsTheBackground) {
+    const VolumeLabels nothing;
+    const auto chosen = [&](double label) {
+        return choose_transfer_function(ValueDistribution({{label, 10}}), true, {}, least_padding,
+                                        &nothing);
+    };
+    EXPECT_EQ(chosen(0).transfer_function.at(0).extinction, 0);
+    EXPECT_EQ(chosen(0).reason,
+              "1 label: 0, 100 % of the field, is transparent, so that nothing shows");
+    EXPECT_EQ(chosen(7).transfer_function.at(7).extinction, 1);
+    EXPECT_EQ(chosen(-1).transfer_function.at(-1).extinction, 0);
+}
+
 TEST(AutomaticTransfer, BothSidesOfACommonValueShow) {
     std::vector<WeightedValue> values{{0, 1000}};
     for (int i = 1; i <= 100; ++i) {

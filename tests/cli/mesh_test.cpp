@@ -48,6 +48,23 @@ class MeshVerb : public testing::Test {
     std::string vtu = folder / "m.vtu", node = folder / "m.node";
 };
 
+// 0 and 5000000000: codes of labels would be 0 and 1.
+TEST_F(MeshVerb, SaysThatItInterpolatesBetweenLabels) {
+    std::string values;
+    for (const char* const label : {" 0", " 5000000000"})
+        for (int i = 0; i < 480; ++i) values += label;
+    write_bytes_to(
+        volume,
+        "NRRD0004\ntype: int64\ndimension: 3\nsizes: 4 4 60\nencoding: ascii\n\n" + values + "\n");
+    const ProgramResult result = lamina_run({"mesh", volume, "-o", vtu, "--kuhn"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("v.nrrd: its samples are labels, and the mesh interpolates"),
+              std::string::npos)
+        << result.err;
+    EXPECT_EQ(result.err.find("numbered"), std::string::npos) << result.err;
+    EXPECT_EQ(info(vtu)["scalars"][0]["range"], json({0, 5000000000.}));
+}
+
 TEST_F(MeshVerb, KuhnNeedsNoTetGen) {
     const ProgramResult result = lamina_run({"mesh", volume, "-o", vtu, "--kuhn"});
     EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -282,3 +282,43 @@ def test_labels_of_files_have_their_numbers(tmp_path):
     red, green, blue = picture.array[4, 4, :3]  # seen from +z
     assert red < 0.01 and green == 0 and blue > 0.99
     assert lamina.Volume(stored.astype(np.uint8)).labels == {}
+
+
+def test_labels_in_arrays_have_their_numbers_too():
+    stored = np.zeros((3, 8, 8), np.int64)
+    stored[1], stored[2] = 2**53, 2**53 + 1  # one number as doubles
+    with pytest.warns(lamina.PictureWarning, match="array: its 3 labels, from 0 to 9007199254740993, are numbered 0 to 2"):
+        volume = lamina.Volume(stored, lookup="nearest", spacing=2)
+    assert volume.lookup == "nearest" and volume.dtype == np.uint8 and volume.conversion == ""
+    assert volume.spacing == (2, 2, 2)
+    assert volume.labels == {0: (0, ""), 1: (2**53, ""), 2: (2**53 + 1, "")}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        small = lamina.Volume(stored.astype(bool).astype(np.float64), lookup="nearest")
+        halves = lamina.Volume(np.full((2, 2, 2), .5, np.float32), lookup="nearest")
+    assert small.dtype == np.uint8 and small.labels == {}
+    assert halves.dtype == np.float32 and halves.lookup == "nearest"
+
+
+def test_what_is_taken_for_labels_is_said(tmp_path):
+    stored = np.zeros((40, 40, 40), np.int32)
+    stored[10:20, 10:20, 10:20] = 70000
+    np.save(tmp_path / "a.npy", stored)
+    with pytest.warns(lamina.PictureWarning, match="a.npy: its samples are taken for labels, as 98.*six neighbours"):
+        volume = lamina.read(tmp_path / "a.npy")
+    assert volume.labels == {0: (0, ""), 1: (70000, "")}
+
+
+def test_saved_labels_are_read_again(tmp_path):
+    head = "NRRD0005\ntype: int64\ndimension: 3\nsizes: 2 2 1\nencoding: ascii\nSegment0_ID:=s\n"
+    head += "Segment0_LabelValue:=5000000000\nSegment0_Name:=liver\nSegment0_Color:=1 0 .5\n\n0 0 7 5000000000\n"
+    (tmp_path / "a.seg.nrrd").write_text(head)
+    with pytest.warns(lamina.PictureWarning):
+        volume = lamina.read(tmp_path / "a.seg.nrrd")
+        assert volume.labels == {0: (0, ""), 1: (7, ""), 2: (5_000_000_000, "liver")}
+        volume.save(tmp_path / "b.nrrd")
+        assert lamina.read(tmp_path / "b.nrrd").labels == volume.labels
+    header, samples = (tmp_path / "b.nrrd").read_bytes().split(b"\n\n", 1)  # as others read it
+    assert b"type: uint32" not in header and b"type: int64" in header or b"type: uint64" in header
+    assert list(np.frombuffer(samples, np.int64)) == [0, 0, 7, 5_000_000_000]
+    assert b"Segment0_LabelValue:=5000000000" in header and b"Segment0_Name:=liver" in header

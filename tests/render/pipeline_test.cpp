@@ -91,12 +91,96 @@ TEST(Pipeline, GivesLabelsTheOpticsOfTheirNumbers) {
     EXPECT_EQ(saved.scene().transfer_function, pipeline.scene().transfer_function);
     pipeline.set_transfer_function(*pipeline.asked().transfer_function);
     expect_colours(*pipeline.scene().transfer_function);
+    // A range is one of numbers, over which labels are not spread.
+    PipelineOptions ranged;
+    ranged.adjustments.transfer.range = ValueRange{0, 9};
+    expect_error([&] { Pipeline(read_scene(document, folder / "scene.json"), {}, ranged).scene(); },
+                 {"a.nrrd: found a range of values and a transfer function of labels"});
     document.erase("transfer_function");
     Pipeline chosen(read_scene(document, folder / "scene.json"));
     EXPECT_TRUE(chosen.scene().transfer_function->of_codes());
     EXPECT_EQ(chosen.scene().transfer_function->at(0).extinction, 0);
     EXPECT_NE(chosen.scene().transfer_function->at(1).color,
               chosen.scene().transfer_function->at(2).color);
+}
+
+// Codes are those of the labels that a file had when the scene was saved.
+TEST(Pipeline, RefusesCodesOfOtherLabels) {
+    const TemporaryFolder folder;
+    const auto write_labels = [&](std::int64_t last) {
+        std::string samples;
+        for (const std::int64_t label : {std::int64_t{0}, std::int64_t{9}, last})
+            for (int i = 0; i < 40; ++i)
+                samples.append(reinterpret_cast<const char*>(&label), sizeof label);
+        write_bytes_to(folder / "a.nrrd",
+                       "NRRD0004\ntype: int64\ndimension: 3\nsizes: 120 1 1\nencoding: raw\n"
+                       "endian: little\n\n" +
+                           samples);
+    };
+    write_labels(5000000000);
+    nlohmann::json document = minimal_scene();
+    document["volume"] = {{"path", (folder / "a.nrrd").string()}};
+    document.erase("transfer_function");
+    Pipeline first(read_scene(document, folder / "scene.json"));
+    const nlohmann::json saved = scene_json(first.scene());
+    EXPECT_TRUE(saved["transfer_function"]["codes_of"].is_string());
+    write_labels(6000000000);
+    const auto draw = [&](const nlohmann::json& scene) {
+        Pipeline(read_scene(scene, folder / "saved.json")).scene();
+    };
+    expect_error([&] { draw(saved); },
+                 {"saved.json: transfer_function.codes_of: ", "codes of other labels"});
+    nlohmann::json linear = saved;
+    linear["volume"]["lookup"] = "linear";
+    expect_error([&] { draw(linear); }, {"codes of other labels"});
+    nlohmann::json trusted = saved;  // as a user writes codes
+    trusted["transfer_function"].erase("codes_of");
+    draw(trusted);
+}
+
+// 2^53 and 2^53 + 1 are one double.
+TEST(Pipeline, SaysWhichLabelsTransferFunctionsDoNotTellApart) {
+    const TemporaryFolder folder;
+    std::string values;
+    for (const char* const label : {" 0", " 9007199254740992", " 9007199254740993"})
+        for (int i = 0; i < 40; ++i) values += label;
+    write_bytes_to(
+        folder / "a.nrrd",
+        "NRRD0004\ntype: int64\ndimension: 3\nsizes: 120 1 1\nencoding: ascii\n\n" + values + "\n");
+    nlohmann::json document = minimal_scene();
+    document["volume"] = {{"path", (folder / "a.nrrd").string()}};
+    test::HeardWarnings heard;
+    Pipeline pipeline(read_scene(document, folder / "scene.json"));
+    pipeline.scene();
+    EXPECT_NE(heard.all().find("do not tell labels 9007199254740992 and 9007199254740993 apart"),
+              std::string::npos)
+        << heard.all();
+}
+
+TEST(Pipeline, SaysThatALabelHasTheColourOfTheBackground) {
+    const TemporaryFolder folder;
+    std::string values;
+    for (const char* const label : {" 0", " 1", " 2"})
+        for (int i = 0; i < 40; ++i) values += label;
+    write_bytes_to(folder / "a.nrrd",
+                   "NRRD0005\ntype: uint8\ndimension: 3\nsizes: 120 1 1\nencoding: ascii\n"
+                   "Segment0_ID:=a\nSegment0_LabelValue:=1\nSegment0_Color:=0 0 0\n"
+                   "Segment1_ID:=b\nSegment1_LabelValue:=2\nSegment1_Color:=1 1 1\n\n" +
+                       values + "\n");
+    nlohmann::json document = minimal_scene();
+    document["volume"] = {{"path", (folder / "a.nrrd").string()}};
+    document.erase("transfer_function");
+    test::HeardWarnings heard;
+    Pipeline pipeline(read_scene(document, folder / "scene.json"));
+    EXPECT_EQ(pipeline.scene().transfer_function->at(1).color, glm::dvec3(0));  // as the file says
+    EXPECT_NE(heard.all().find("gives the background's colour to 1 of its labels (1)"),
+              std::string::npos)
+        << heard.all();
+    heard.texts.clear();
+    document["background"] = {1, 1, 1};
+    Pipeline white(read_scene(document, folder / "scene.json"));
+    white.scene();
+    EXPECT_NE(heard.all().find("to 1 of its labels (2)"), std::string::npos) << heard.all();
 }
 
 TEST(Pipeline, StretchesAnotherColormapOverTheDataItHas) {

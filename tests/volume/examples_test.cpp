@@ -92,9 +92,9 @@ TEST(HeadExample, HasTheSameBonesLeftAndRight) {
     const MadeHead& head = made_head();
     const std::int64_t width = head.map.grid().size[0];
     std::set<int> bones;
-    for (const NrrdSegment& segment : head_segments())
-        if (segment.name == "skull" || segment.name == "jaw" || segment.name == "teeth")
-            bones.insert(static_cast<int>(segment.value));
+    for (const Label& label : head.map.labels()->list)
+        if (label.name == "skull" || label.name == "jaw" || label.name == "teeth")
+            bones.insert(static_cast<int>(label.code));
     ASSERT_EQ(bones.size(), 3u);
     for (std::size_t i = 0; i < head.tissue.size(); ++i) {
         const auto x = static_cast<std::int64_t>(i) % width;
@@ -112,13 +112,13 @@ TEST(HeadExample, HasLabelsThatAgreeWithTheCt) {
         sums[head.tissue[i]].second += 1;
     }
     std::map<std::string, double> mean;
-    for (const NrrdSegment& segment : head_segments()) {
-        const auto [sum, count] = sums[static_cast<int>(segment.value)];
-        ASSERT_GT(count, 500) << segment.name;
-        mean[segment.name] = sum / count;
+    for (const Label& label : head.map.labels()->list) {
+        const auto [sum, count] = sums[static_cast<int>(label.code)];
+        ASSERT_GT(count, 500) << label.name;
+        mean[label.name] = sum / count;
     }
-    EXPECT_EQ(mean.size(), head_segments().size());  // no name twice
-    EXPECT_EQ(sums.size(), head_segments().size() + 1);
+    EXPECT_EQ(mean.size(), head.map.labels()->list.size());  // no name twice
+    EXPECT_EQ(sums.size(), head.map.labels()->list.size() + 1);
     EXPECT_GT(mean["teeth"], 1300);
     for (const char* const bone : {"skull", "jaw", "spine"}) {
         EXPECT_GT(mean[bone], 350) << bone;

@@ -122,8 +122,8 @@ TEST_F(HeaderWords, OfNrrdSayWhatSegmentsAre) {
                                 "Segment1_Name:=left kidney\nSegment1_Layer:=1\n\n12");
     read_volume(path);
     expect_said(
-        "a segmentation of 3D Slicer, whose samples are labels: 1 is \"liver\", 4 is \"left "
-        "kidney\" (channel 1)");
+        "its samples are labels, as the list of segments (1 is \"liver\", 4 is \"left kidney\" "
+        "(channel 1)) says");
     files_of_volume(path);
     EXPECT_TRUE(heard_.texts.empty());
     read_volume(write("q.nrrd", cube + "old min: -1\nold max: 1\n\n12"));

@@ -8,6 +8,8 @@
 #include "expect_boxes.h"
 #include "nrrd_files.h"
 #include "support/heard_warnings.h"
+#include "volume/labels.h"
+#include "volume/nrrd_writer.h"
 #include "volume_files/bricked_copy.h"
 #include "volume_files/volume_file.h"
 
@@ -35,6 +37,12 @@ class LabelFiles : public testing::NrrdFiles {
                                              "endian: little\nsizes: {} 1 1\n\n",
                                              type, samples.size()) +
                                      bytes_of_values(samples));
+    }
+
+    static void save(const Volume& volume, const std::filesystem::path& path) {
+        AtomicFile file(path);
+        write_nrrd(file, volume);
+        file.commit();
     }
 
     // Expects a warning with this part, and forgets all.
@@ -136,7 +144,10 @@ TEST_F(LabelFiles, OfSlicerHaveNamesAndColours) {
     const auto flat = write("a.seg.nrrd", head + "dimension: 3\nsizes: 2 1 1\n" + segments + "12");
     const Volume volume = read_volume(flat);
     EXPECT_EQ(volume.grid().lookup, VolumeLookup::nearest);
-    expect_said("a.seg.nrrd: its samples are labels, as the list of segments says");
+    ASSERT_EQ(heard_.texts.size(), 1u) << heard_.all();
+    expect_said(
+        "a.seg.nrrd: its samples are labels, as the list of segments (1 is \"liver\", 4 is \"left "
+        "kidney\" (channel 1)) says: \"lookup\": \"linear\"");
     ASSERT_EQ(volume.labels()->list.size(), 1u);
     const Label& liver = volume.labels()->list[0];
     EXPECT_EQ(liver.name, "liver");
@@ -163,8 +174,10 @@ TEST_F(LabelFiles, OfOmeZarrAreKnownByTheirImage) {
     nlohmann::json attributes;
     const nlohmann::json levels = nlohmann::json::array({{{"path", "0"}}});
     attributes["multiscales"] = nlohmann::json::array({{{"axes", axes}, {"datasets", levels}}});
-    attributes["image-label"]["colors"] = {{{"label-value", 2}, {"rgba", {255, 0, 0, 255}}},
+    attributes["image-label"]["colors"] = {{{"label-value", 2}, {"rgba", {255, 0, 0, 0}}},
                                            {{"label-value", 1}, {"rgba", "red"}}};
+    attributes["image-label"]["properties"] = {{{"label-value", 1}, {"area (pixels)", 1200}},
+                                               {{"label-value", 2}, {"class", "nucleus"}}};
     const auto image = folder() / "cells";
     std::filesystem::create_directories(image / "0");
     write_bytes_to(image / ".zgroup", R"({"zarr_format": 2})");
@@ -177,8 +190,94 @@ TEST_F(LabelFiles, OfOmeZarrAreKnownByTheirImage) {
         expect_said("its samples are labels, as the OME-Zarr image says");
         ASSERT_EQ(volume.labels()->list.size(), 2u);
         EXPECT_FALSE(volume.labels()->list[0].color);
+        EXPECT_EQ(volume.labels()->list[0].name, "");
+        EXPECT_EQ(volume.labels()->list[0].opacity, 1);
         EXPECT_EQ(volume.labels()->list[1].color, glm::dvec3(1, 0, 0));
+        EXPECT_EQ(volume.labels()->list[1].opacity, 0);
+        EXPECT_EQ(volume.labels()->list[1].name, "nucleus");
     }
+}
+
+TEST_F(LabelFiles, ThatLookLikeLabelsButAreTakenForAFieldAreNamed) {
+    std::vector<std::int32_t> steps(10);  // by 1, as in a rounded ramp
+    for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = static_cast<std::int32_t>(i);
+    EXPECT_EQ(read_volume(row("int32", steps, 60)).grid().lookup, VolumeLookup::linear);
+    expect_said(
+        "97 % of them equal their six neighbours, but 100 % of unequal neighbours differ by 1");
+    EXPECT_EQ(read_volume(row<std::int32_t>("int32", {0, 90, 4, 70}, 10)).grid().lookup,
+              VolumeLookup::linear);
+    expect_said("row.nrrd: its samples look like labels, but only 85 % of them equal their six");
+    EXPECT_EQ(read_volume(row<std::int32_t>("int32", {0, 90000, 4, 70000}, 10)).grid().lookup,
+              VolumeLookup::linear);
+    expect_said("\"lookup\": \"nearest\" in the volume takes them for labels");
+    read_volume(row("int32", steps, 60), as_linear());
+    EXPECT_TRUE(heard_.texts.empty());
+}
+
+// The file's intent says that samples are labels. Their steps: a power of two, which is exact; that
+// of a program which scaled 0 to 7 to 8 bits and rounded; one that is no quantum of whole numbers.
+TEST_F(LabelFiles, ThatAreScaledAreWholeNumbersOrSaid) {
+    const auto scaled = [&](float slope, float shift) {
+        std::string bytes =
+            testing::with_number(corpus_file("nifti/one.nii"), 68, std::int16_t{1002});
+        bytes = testing::with_number(bytes, 112, slope);
+        return write("a.nii", testing::with_number(bytes, 116, shift));
+    };
+    const Volume stored = read_volume(scaled(1, 0));
+    heard_.texts.clear();
+    const Volume even = read_volume(scaled(2, 100000));
+    EXPECT_EQ(even.grid().lookup, VolumeLookup::nearest);
+    ASSERT_TRUE(even.labels());
+    EXPECT_TRUE(even.labels()->renumbered);
+    stored.visit([&](const auto* values) {
+        even.visit([&](const auto* codes) {
+            for (std::size_t i = 0; i < static_cast<std::size_t>(stored.grid().sample_count());
+                 ++i) {
+                EXPECT_EQ(even.labels()->list[static_cast<std::size_t>(codes[i])].number,
+                          std::to_string(100000 + 2 * static_cast<std::int64_t>(values[i])));
+            }
+        });
+    });
+    heard_.texts.clear();
+    const Volume halves = read_volume(scaled(.5, .25));
+    EXPECT_EQ(halves.type(), SampleType::float32);
+    EXPECT_EQ(halves.grid().lookup, VolumeLookup::nearest);
+    expect_said("but, scaled by 0.5 and shifted by 0.25, no whole numbers");
+    EXPECT_EQ(read_volume(scaled(.5, .25), as_linear()).grid().lookup, VolumeLookup::linear);
+    EXPECT_TRUE(heard_.texts.empty());
+}
+
+TEST_F(LabelFiles, KeepNumbersNamesAndColoursWhenTheyAreSaved) {
+    Volume volume = read_volume(row<std::int64_t>("int64", {0, 3, 17, 1000000007, -5}, 60));
+    std::vector<Label> named{{0, "17", "liver", glm::dvec3(.25, 0, 1)}, {0, "-5", "outside"}};
+    named[1].opacity = .5;
+    volume = with_descriptions(volume, named);
+    const auto saved = folder() / "saved.nrrd";
+    save(volume, saved);
+    heard_.texts.clear();
+    const Volume again = read_volume(saved);
+    expect_said("saved.nrrd: its samples are labels, as the list of segments");
+    EXPECT_EQ(numbers_of(again), numbers_of(volume));
+    EXPECT_EQ(samples_of<std::uint8_t>(again), samples_of<std::uint8_t>(volume));
+    for (std::size_t i = 0; i < volume.labels()->list.size(); ++i) {
+        const Label &one = volume.labels()->list[i], &other = again.labels()->list[i];
+        EXPECT_EQ(one.name, other.name);
+        EXPECT_EQ(one.opacity, other.opacity);
+        ASSERT_EQ(one.color.has_value(), other.color.has_value());
+        for (int c = 0; one.color && c < 3; ++c)
+            EXPECT_NEAR((*one.color)[c], (*other.color)[c], 1e-12);  // sRGB and back
+    }
+    // Numbers of 64 bits without a sign, and what only the user calls labels.
+    const std::uint64_t large = (std::uint64_t{1} << 63) + 1;
+    const Volume wide = read_volume(row<std::uint64_t>("uint64", {large + 1, large, 0}));
+    save(wide, saved);
+    EXPECT_EQ(numbers_of(read_volume(saved)), numbers_of(wide));
+    VolumeRequest nearest;
+    nearest.lookup = VolumeLookup::nearest;
+    save(read_volume(row<std::uint8_t>("uint8", {1, 2, 3, 4}, 1), nearest), saved);
+    heard_.texts.clear();
+    EXPECT_EQ(read_volume(saved).grid().lookup, VolumeLookup::nearest);
+    expect_said("saved.nrrd: its samples are labels, as its key lamina_lookup says");
 }
 
 TEST_F(LabelFiles, KeepTheirNumbersInBrickedCopies) {

@@ -34,29 +34,16 @@ struct Example {
     void (*write)(AtomicFile& file);
 };
 
-void write_with(AtomicFile& file, const Volume& volume, const NrrdExtras& extras) {
-    write_nrrd_header(file, volume.grid(), volume.type(), extras);
-    file.write(volume.data(), volume.byte_count());
-}
-
 void write_head(AtomicFile& file) {
-    NrrdExtras extras;
-    extras.sample_unit = "HU";
-    write_with(file, head_ct(), extras);
+    write_nrrd(file, head_ct());
 }
 
 void write_labels(AtomicFile& file) {
-    NrrdExtras extras;
-    extras.segments = head_segments();
-    write_with(file, head_labels(), extras);
+    write_nrrd(file, head_labels());
 }
 
 void write_jet(AtomicFile& file) {
-    NrrdExtras extras;
-    extras.times = jet_times;
-    extras.time_step = jet_time_step;
-    extras.time_unit = "s";
-    write_nrrd_header(file, jet_grid(), SampleType::uint8, extras);
+    write_nrrd_header(file, jet_grid(), SampleType::uint8, {jet_times, jet_time_step, "s"});
     const std::vector<std::uint8_t> samples = jet_samples();
     file.write(samples.data(), samples.size());
 }

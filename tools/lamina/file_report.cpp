@@ -130,6 +130,7 @@ Json labels_of(const VolumeData& data) {
             entry["number"] = parse_json(label->number);
             if (!label->name.empty()) entry["name"] = label->name;
             if (label->color) entry["color"] = json_vector(*label->color);
+            if (label->opacity != 1) entry["opacity"] = label->opacity;
         }
         list.push_back(entry);
     }

@@ -91,15 +91,37 @@ void check(const MeshOptions& options) {
     }
 }
 
+// Reads a volume as a field. Tets interpolate between labels, too, which is said.
+Volume read_field(const std::string& file, VolumeRequest request) {
+    std::vector<std::string> said;
+    Client quiet = ClientScope::current();
+    quiet.warnings = nullptr;
+    std::optional<Volume> volume;
+    {
+        const ClientScope scope(quiet);
+        volume = keep_warnings(said, [&] { return read_volume(file, request); });
+    }
+    if (volume->grid().lookup == VolumeLookup::linear) {
+        for (const std::string& text : said) warn(text);
+        return *volume;
+    }
+    volume.reset();
+    request.lookup = VolumeLookup::linear;
+    warn(
+        fmt::format("{}: its samples are labels, and the mesh interpolates between their numbers, "
+                    "so that it has values that are none",
+                    file));
+    return read_volume(file, request);
+}
+
 MeshTask load(const MeshOptions& options, const MeshOutput& output) {
-    VolumeRequest request = request_of(options.raw);
-    request.lookup = VolumeLookup::linear;  // tets interpolate between labels, too
+    const VolumeRequest request = request_of(options.raw);
     const FileKind kind = request.raw ? FileKind::volume : kind_of_file(options.input);
     if (kind == FileKind::mesh)
         fail("{}: is a mesh already, expected a volume or a scene (JSON)", options.input);
     if (kind == FileKind::volume) {
         expect_different_files(files_of_volume(options.input, request), output.paths());
-        return {read_volume(options.input, request), {}, {}};
+        return {read_field(options.input, request), {}, {}};
     }
     Scene scene = load_scene(options.input);
     expect_different_files(files_of(scene), output.paths());

@@ -149,6 +149,7 @@ void TimeSeries::draw_missing(const std::vector<std::int64_t>& steps, SeriesReco
     if (VolumeFile* const volume = resolved.volume_file(); volume && !resolved.draws_mesh())
         volume->selection.lookup = pipeline.data().volume(resolved)->volume.grid().lookup;
     if (resolved.transfer_function->of_codes()) {
+        resolved.transfer_function = resolved.transfer_function->with_codes();  // of any labels
         warn(
             "labels that 16 bits do not hold are numbered anew in each step, so that a label may "
             "change its colour");

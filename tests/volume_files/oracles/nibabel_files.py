@@ -92,6 +92,34 @@ def nibabel_files(cases):
     cases.add("rgb.nii", rgb["G"].T, steps, origin, channel=1)
 
     bad_places(cases, nib)
+    labels(cases, nib, oblique)
+
+
+def labels(cases, nib, affine):
+    """Segmentations (intent 1002) that are scaled: by the writer of the file, and by nibabel for a smaller type."""
+    numbers = np.add.outer(np.arange(12) // 3 * 2, np.arange(10) // 5)[:, :, None].repeat(8, 2).astype("f8")  # 0 to 7
+
+    def save(file, stored, kind=None):
+        image = nib.Nifti1Image(stored, affine)
+        image.header.set_intent("label")
+        if kind:
+            image.set_data_dtype(kind)
+        nib.save(image, cases.path(file))
+        return nib.load(cases.path(file))
+
+    back = save("labels_auto.nii.gz", numbers, "uint8")
+    assert back.dataobj.slope not in (1, None) and np.abs(back.get_fdata() - numbers).max() > 0
+    steps, origin = to_lps(back.affine)
+    cases.add("labels_auto.nii.gz", numbers.T, steps, origin, drawn="uint8",
+              warnings=["its samples are labels, as intent_code 1002 says", "are the nearest whole numbers"])
+    far = numbers * 1e6
+    far[far == 0] = -1
+    save("labels_far.nii", far.astype("i4"))
+    codes = np.unique(far, return_inverse=True)[1].reshape(far.shape).astype("u1")
+    cases.add("labels_far.nii", codes.T, steps, origin, warnings=["its 8 labels, from -1 to 7000000"])
+    halves = numbers / 2
+    save("labels_halves.nii", halves.astype("f4"))
+    cases.add("labels_halves.nii", halves.T, steps, origin, drawn="float", warnings=["no whole numbers"])
 
 
 def bad_places(cases, nib):

@@ -197,7 +197,7 @@ TransferEditor::TransferEditor() : function_(curves_.function()) {}
 bool TransferEditor::put(const TransferCurves& curves) {
     try {
         function_ = curves.function();
-        if (of_codes_) function_ = function_.with_codes();
+        if (of_codes_) function_ = function_.with_codes(labels_);
     } catch (const Error&) {
         return false;
     }
@@ -223,6 +223,7 @@ void TransferEditor::set_unit_length(double length) {
 void TransferEditor::take(const TransferFunction& function) {
     if (function == function_) return;
     of_codes_ = function.of_codes();
+    labels_ = function.labels();
     restore(curves_of(function, unit_length_));
 }
 

@@ -122,6 +122,7 @@ class TransferEditor {
     TransferCurves curves_;
     TransferFunction function_;
     bool of_codes_ = false;
+    std::string labels_;  // TransferFunction::labels()
     double unit_length_ = 1;
     std::set<TransferHandle> selection_;
     std::optional<TransferCurves> start_;  // the state at begin_move()
