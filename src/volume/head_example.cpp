@@ -393,7 +393,7 @@ Volume head_labels() {
 std::vector<NrrdSegment> head_segments() {
     return {{skull, "skull", {0.90, 0.82, 0.62}},
             {jaw, "jaw", {0.80, 0.62, 0.40}},
-            {teeth, "teeth", {0.98, 0.98, 0.95}},
+            {teeth, "teeth", {0.76, 0.84, 0.95}},
             {spine, "spine", {0.60, 0.75, 0.45}},
             {cerebrum, "cerebrum", {0.90, 0.52, 0.50}},
             {cerebellum, "cerebellum", {0.66, 0.42, 0.78}},
