@@ -375,7 +375,7 @@ std::vector<Label> tissue_labels() {
     };
     add(skull, "skull", {0.90, 0.82, 0.62});
     add(jaw, "jaw", {0.80, 0.62, 0.40});
-    add(teeth, "teeth", {0.98, 0.98, 0.95});
+    add(teeth, "teeth", {0.76, 0.84, 0.95});
     add(spine, "spine", {0.60, 0.75, 0.45});
     add(cerebrum, "cerebrum", {0.90, 0.52, 0.50});
     add(cerebellum, "cerebellum", {0.66, 0.42, 0.78});
