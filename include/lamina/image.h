@@ -68,23 +68,32 @@ struct PictureTile {
     int width = 0, height = 0;
 };
 
+// How a PNG file shows a picture: over a background or, if it is transparent, without one and with
+// straight alpha (colours divided by the opacity).
+struct PngLook {
+    glm::dvec3 background;  // numbers in the picture's space
+    bool transparent;
+    int bits;  // of a code: 8 or 16
+
+    PngLook(const glm::dvec3& behind = glm::dvec3(0), bool has_alpha = false, int bits_of_code = 8)
+        : background(behind), transparent(has_alpha), bits(bits_of_code) {}
+};
+
 // Writes a picture, which appears under its name when it is complete. The suffix decides on the
-// format: .png is for looking at (8 bits, sRGB, over `background`, whose numbers are in
-// picture.space); .exr and .npy (NumPy's, of shape (height, width, 4)) keep every number as 32-bit
-// float. `attributes`: texts by name that .exr stores beside the pixels. Throws Error for other
-// suffixes and if the file cannot be written.
+// format: .png is for looking at (sRGB codes, as `look` says); .exr and .npy (NumPy's, of shape
+// (height, width, 4)) keep every number as 32-bit float. `attributes`: texts by name that .exr
+// stores beside the pixels. Throws Error for other suffixes and if the file cannot be written.
 LAMINA_API void save_picture(const Image& picture, const std::filesystem::path& file,
-                             const glm::dvec3& background = glm::dvec3(0),
+                             const PngLook& look = {},
                              const std::map<std::string, std::string>& attributes = {});
 // Writes a traced picture: .npy keeps double precision, .exr has float32.
 LAMINA_API void save_picture(const PreciseImage& picture, const std::filesystem::path& file,
-                             const glm::dvec3& background = glm::dvec3(0),
+                             const PngLook& look = {},
                              const std::map<std::string, std::string>& attributes = {});
 
 // Returns the bytes of the PNG file that save_picture() writes.
-LAMINA_API std::string picture_png(const Image& picture,
-                                   const glm::dvec3& background = glm::dvec3(0));
-// Returns the codes of this file's pixels, red, green and blue, row 0 on top, to show on a screen.
+LAMINA_API std::string picture_png(const Image& picture, const PngLook& look = {});
+// Returns 8-bit codes over a background, red, green and blue, row 0 on top, to show on a screen.
 LAMINA_API std::vector<std::uint8_t> screen_codes(const Image& picture,
                                                   const glm::dvec3& background = glm::dvec3(0));
 
@@ -136,7 +145,8 @@ struct LoadedPicture {
     std::optional<ImageColorSpace> space;  // known only for EXR files
 };
 
-// Reads an EXR or NPY file. Throws Error.
+// Reads an EXR or NPY file, or a PNG file with alpha, whose codes become associated linear light.
+// Throws Error.
 LAMINA_API LoadedPicture load_picture(const std::filesystem::path& file);
 
 }  // namespace lamina

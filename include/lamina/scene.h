@@ -74,6 +74,8 @@ struct Scene {
     // Space in which colours and background are numbers, and in which the picture is composited.
     ImageColorSpace color_space = ImageColorSpace::linear;
     glm::dvec3 background{0};
+    bool transparent = false;  // PNG files have straight alpha and no background
+    int png_bits = 8;          // of the codes of PNG files: 8 or 16
     Method method = Method::slice;
     Auto<Target> target = Target::float32;
     Emulation emulate;  // for Target::emulated
@@ -85,6 +87,7 @@ struct Scene {
     TraceOf trace_of = TraceOf::volume;
     double trace_tolerance = 1e-5;  // largest error of a traced picture, as a share of full scale
 
+    PngLook png_look() const { return {background, transparent, png_bits}; }
     bool has_volume() const { return !std::holds_alternative<std::monostate>(volume); }
     bool has_mesh() const { return !std::holds_alternative<std::monostate>(mesh); }
     // Return the file of the volume or the mesh; null if the data come from elsewhere.

@@ -101,13 +101,16 @@ class Picture:
         scene = Scene(document, self._data)
         return scene
 
-    def save(self, file: Path) -> None:
+    def save(self, file: Path, *, transparent: bool | None = None) -> None:
         """Writes ``.exr`` (float32, with scene and plan), ``.npy`` (every number as it is) or ``.png`` (to look at, over
-        the scene's background). The file appears when it is complete."""
+        the scene's background or, if ``transparent``, without one and with straight alpha; unless given, as the scene's
+        key says). The file appears when it is complete."""
         scene = self._drawn.scene
+        alpha = scene.transparent if transparent is None else transparent
         attributes = {"scene": scene.text(), "plan": self._drawn.explanation,
                       "renderer": str(self.stats["drawn_by"]), "software": f"lamina {_lamina.version}"}
-        _lamina.save_picture(self._array, pathlib.Path(file), scene.background, scene.color_space, attributes)
+        _lamina.save_picture(self._array, pathlib.Path(file), scene.background, alpha, scene.png_bits,
+                             scene.color_space, attributes)
 
     def compare(self, other: Any) -> Comparison:
         """Compares this picture with another one (a picture, an array, an EXR or NPY file): ``lamina.compare``."""
@@ -115,7 +118,7 @@ class Picture:
 
     def _repr_png_(self) -> bytes:
         scene = self._drawn.scene
-        return _lamina.picture_png(self._array, scene.background, scene.color_space)
+        return _lamina.picture_png(self._array, scene.background, scene.transparent, 8, scene.color_space)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
         return converted(self._array, dtype, copy)

@@ -27,6 +27,8 @@ KEYWORDS: dict[str, tuple[str, ...]] = {
     "height": ("image", "height"),
     "color_space": ("image", "color_space"),
     "background": ("image", "background"),
+    "transparent": ("image", "transparent"),
+    "png_bits": ("image", "png_bits"),
     "method": ("render", "method"),
     "target": ("render", "target"),
     "emulate": ("render", "emulate"),
@@ -369,6 +371,8 @@ class Keywords(TypedDict, total=False):
     - ``color_space``: What triples and colour maps are given in, and pictures composited in: linear light, or display
       values as VTK and ParaView do. Default: "linear".
     - ``background``: Default: [0, 0, 0].
+    - ``transparent``: PNG files and films have straight alpha and no background. Default: false.
+    - ``png_bits``: Of each code in PNG files. Default: 8.
     - ``method``: Left out: slice for scenes with a volume, project for others.
     - ``target``: Default: "float32".
     - ``emulate``: Fixed-point compositing step by step, for target emulated.
@@ -391,6 +395,8 @@ class Keywords(TypedDict, total=False):
     height: Union[int, None]
     color_space: Union[Literal["linear", "display"], None]
     background: Union[Color, None]
+    transparent: Union[bool, None]
+    png_bits: Union[Literal[8, 16], None]
     method: Union[Literal["slice", "project", "trace"], None]
     target: Union[Literal["float32", "float16", "fixed16", "fixed8", "emulated", "auto"], None]
     emulate: Union[EmulateKeys, None]

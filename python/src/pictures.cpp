@@ -29,10 +29,10 @@ ImageColorSpace space_of(const std::string& word) {
 using Attributes = std::map<std::string, std::string>;
 
 void save(const py::array& pixels, const std::filesystem::path& file, const Vector& background,
-          const std::string& space, const Attributes& attributes) {
+          bool transparent, int bits, const std::string& space, const Attributes& attributes) {
     const auto write = [&](const auto& image) {
         const py::gil_scoped_release released;
-        save_picture(image, file, to_glm(background), attributes);
+        save_picture(image, file, {to_glm(background), transparent, bits}, attributes);
     };
     if (pixels.dtype().itemsize() == sizeof(double))
         write(image_of<double>(Pixels(pixels), space_of(space)));
@@ -40,12 +40,13 @@ void save(const py::array& pixels, const std::filesystem::path& file, const Vect
         write(image_of<float>(FloatPixels(pixels), space_of(space)));
 }
 
-py::bytes png_of(const FloatPixels& pixels, const Vector& background, const std::string& space) {
+py::bytes png_of(const FloatPixels& pixels, const Vector& background, bool transparent, int bits,
+                 const std::string& space) {
     const Image image = image_of<float>(pixels, space_of(space));
     std::string bytes;
     {
         const py::gil_scoped_release released;
-        bytes = picture_png(image, to_glm(background));
+        bytes = picture_png(image, {to_glm(background), transparent, bits});
     }
     return bytes;
 }
@@ -99,8 +100,9 @@ py::tuple loaded(const std::filesystem::path& file) {
 
 void bind_pictures(py::module_& module) {
     module.def("save_picture", &save, py::arg("pixels"), py::arg("file"), py::arg("background"),
-               py::arg("space"), py::arg("attributes"));
-    module.def("picture_png", &png_of, py::arg("pixels"), py::arg("background"), py::arg("space"));
+               py::arg("transparent"), py::arg("bits"), py::arg("space"), py::arg("attributes"));
+    module.def("picture_png", &png_of, py::arg("pixels"), py::arg("background"),
+               py::arg("transparent"), py::arg("bits"), py::arg("space"));
     module.def("compare", &compared, py::arg("a"), py::arg("b"));
     module.def("compare_files", &files_compared, py::arg("a"), py::arg("b"));
     module.def("difference_png", &difference, py::arg("a"), py::arg("b"), py::arg("range"));

@@ -47,7 +47,9 @@ void bind_scene(py::module_& module) {
         .def_property_readonly("color_space",
                                [](const Scene& scene) { return name_of(scene.color_space); })
         .def_property_readonly("background",
-                               [](const Scene& scene) { return from_glm(scene.background); });
+                               [](const Scene& scene) { return from_glm(scene.background); })
+        .def_readonly("transparent", &Scene::transparent)
+        .def_readonly("png_bits", &Scene::png_bits);
     module.def("kind_of_file", &kind_word, py::arg("file"), py::arg("only_below") = "");
 }
 

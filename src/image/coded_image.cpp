@@ -157,10 +157,13 @@ double linear_from_srgb(double stored) {
     return stored <= 0.04045 ? stored / 12.92 : std::pow((stored + 0.055) / 1.055, 2.4);
 }
 
-std::uint16_t display_code(double value, ImageColorSpace space) {
+std::uint16_t display_code(double value, ImageColorSpace space, int bits) {
     const double shown = std::clamp(value, 0.0, 1.0);
-    if (space == ImageColorSpace::display)
-        return static_cast<std::uint16_t>(std::lround(255 * shown));
+    const bool display = space == ImageColorSpace::display;
+    if (bits == 16)
+        return static_cast<std::uint16_t>(
+            std::lround(65535 * (display ? shown : srgb_from_linear(shown))));
+    if (display) return static_cast<std::uint16_t>(std::lround(255 * shown));
     static const CodeSteps steps;
     return steps.code_of(shown);
 }

@@ -50,7 +50,7 @@ void copy_into(CodedImage& image, const CodedImage& part, int left, int top);
 double srgb_from_linear(double linear);
 double linear_from_srgb(double stored);
 
-// Returns the 8-bit code that shows a number of a picture in `space`, clamped to 0..1.
-std::uint16_t display_code(double value, ImageColorSpace space);
+// Returns the code of 8 or 16 bits that shows a number of a picture in `space`, clamped to 0..1.
+std::uint16_t display_code(double value, ImageColorSpace space, int bits = 8);
 
 }  // namespace lamina

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/picture.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <type_traits>
@@ -48,6 +50,13 @@ Difference pixel_difference(const A& a, const B& b) {
 
 }  // namespace
 
+std::string refusal_of_suffix(const std::string& suffix) {
+    const std::string lower = lower_suffix("picture" + suffix);
+    const bool jpeg = lower == ".jpg" || lower == ".jpeg";
+    return fmt::format("found the suffix \"{}\"{}, expected .png, .exr or .npy", suffix,
+                       jpeg ? ": JPEG would add errors that lamina cannot state" : "");
+}
+
 LoadedImage load_image(const std::filesystem::path& path) {
     const std::string suffix = lower_suffix(path);
     if (suffix == ".exr") return load_exr(path);
@@ -71,11 +80,11 @@ Difference difference(const LoadedImage& a, const LoadedImage& b) {
     }
 }
 
-std::size_t write_picture(OutputFile& file, const Image& image, const glm::dvec3& background,
+std::size_t write_picture(OutputFile& file, const Image& image, const PngLook& look,
                           const std::map<std::string, std::string>& attributes,
                           ImageColorSpace space) {
     const std::filesystem::path suffix = file.path().extension();
-    if (suffix == ".png") return write_png(file, image, background, space);
+    if (suffix == ".png") return write_png(file, image, look, space);
     if (suffix == ".npy")
         write_npy(file, image);
     else

@@ -8,7 +8,6 @@
 #include <string>
 #include <variant>
 
-#include <glm/vec3.hpp>
 #include "base/output_file.h"
 #include "image/coded_image.h"
 #include "image/difference.h"
@@ -23,6 +22,9 @@ struct LoadedImage {
     std::optional<ImageColorSpace> space;  // given for EXR files only
 };
 
+// Says why pictures are not written with this suffix, and which ones they may have.
+std::string refusal_of_suffix(const std::string& suffix);
+
 // Loads .exr, .npy or .png (any case). Throws Error for others, bad files, non-finite components.
 LoadedImage load_image(const std::filesystem::path& path);
 
@@ -31,8 +33,8 @@ LoadedImage load_image(const std::filesystem::path& path);
 Difference difference(const LoadedImage& a, const LoadedImage& b);
 
 // Writes PNG or NPY by the suffix (.png, .npy), else EXR with the attributes. `space`: of image and
-// background. Returns how many pixels were clamped. The caller commits the file.
-std::size_t write_picture(OutputFile& file, const Image& image, const glm::dvec3& background,
+// look. Returns how many pixels were clamped. The caller commits the file.
+std::size_t write_picture(OutputFile& file, const Image& image, const PngLook& look,
                           const std::map<std::string, std::string>& attributes,
                           ImageColorSpace space = ImageColorSpace::linear);
 

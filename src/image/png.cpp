@@ -3,12 +3,14 @@
 
 #include <png.h>
 
-#include <cassert>
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <new>
 
 #include "base/error.h"
 #include "image/image_limits.h"
@@ -39,6 +41,18 @@ template <typename Body>
 void write_block(png_structp png, png_bytep bytes, std::size_t count) {
     auto* const stream = static_cast<std::FILE*>(png_get_io_ptr(png));
     if (std::fwrite(bytes, 1, count, stream) != count) png_error(png, std::strerror(errno));
+}
+
+// Appends bytes to a string.
+void append_block(png_structp png, png_bytep bytes, std::size_t count) {
+    bool appended = true;
+    try {
+        static_cast<std::string*>(png_get_io_ptr(png))
+            ->append(reinterpret_cast<const char*>(bytes), count);
+    } catch (const std::bad_alloc&) {
+        appended = false;  // no exception may pass through libpng
+    }
+    if (!appended) png_error(png, "out of memory");
 }
 
 void flush_nothing(png_structp /*png*/) {}
@@ -75,6 +89,31 @@ void pack_row(const CodedImage& image, const std::uint16_t* codes, std::vector<p
     }
 }
 
+// Encodes a PNG; `write` takes its bytes to `target`.
+void encode(const std::string& name, const CodedImage& image, void* target, png_rw_ptr write) {
+    check_image_size(name, image.width, image.height);
+    Png writer(true);
+    if (writer.info == nullptr) fail("{}: cannot write: out of memory", name);
+    const std::size_t row_codes =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
+    std::vector<png_byte> row(row_codes * static_cast<std::size_t>(image.bit_depth / 8));
+    const bool written = succeeds(writer.png, [&] {
+        png_set_write_fn(writer.png, target, write, flush_nothing);
+        png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width),
+                     static_cast<png_uint_32>(image.height), image.bit_depth,
+                     color_type(image.channels), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                     PNG_FILTER_TYPE_DEFAULT);
+        png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
+        png_write_info(writer.png, writer.info);
+        for (int y = 0; y < image.height; ++y) {
+            pack_row(image, &image.codes[static_cast<std::size_t>(y) * row_codes], row);
+            png_write_row(writer.png, row.data());
+        }
+        png_write_end(writer.png, writer.info);
+    });
+    if (!written) fail("{}: cannot write: {}", name, one_line(writer.message));
+}
+
 void unpack(const std::vector<png_byte>& bytes, CodedImage& image) {
     const png_byte* byte = bytes.data();
     for (std::uint16_t& code : image.codes) {
@@ -95,89 +134,69 @@ void expand(Png& reader) {
     png_read_update_info(reader.png, reader.info);
 }
 
-// A picture as 8-bit codes, and the number of its pixels that were clamped.
-struct DisplayPicture {
-    CodedImage codes;
-    std::size_t clamped_pixels = 0;
+// Says what a picture shows of a pixel: numbers between 0 and 1 unless they must be clamped.
+struct ShownPixel {
+    std::array<double, 4> value;  // red, green, blue; the opacity of straight alpha
+    bool clamped;
 };
 
-DisplayPicture display_picture(const std::string& name, const Image& image,
-                               const glm::dvec3& background, ImageColorSpace space) {
-    check_image_size(name, image.width, image.height);
-    require_finite(name, image);
+ShownPixel shown_pixel(const float* rgba, const PngLook& look) {
     constexpr double rounding = 1.0 / 510;
-    DisplayPicture shown{CodedImage(image.width, image.height, 3, 8)};
-    for (std::size_t pixel = 0; pixel < image.rgba.size() / 4; ++pixel) {
-        const float* const rgba = &image.rgba[4 * pixel];
-        bool clamped = false;
-        for (int channel = 0; channel < 3; ++channel) {
-            const double value = rgba[channel] + (1.0 - rgba[3]) * background[channel];
-            clamped = clamped || value < -rounding || value > 1 + rounding;
-            shown.codes.codes[3 * pixel + static_cast<std::size_t>(channel)] =
-                display_code(value, space);
-        }
-        shown.clamped_pixels += clamped;
+    const double alpha = std::clamp(static_cast<double>(rgba[3]), 0.0, 1.0);
+    ShownPixel shown{{0, 0, 0, alpha}, false};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        double value = rgba[channel];
+        // An associated colour above its opacity would need a straight colour above 1.
+        if (!look.transparent)
+            value += (1.0 - rgba[3]) * look.background[static_cast<glm::length_t>(channel)];
+        const double most = look.transparent ? alpha : 1;
+        shown.clamped = shown.clamped || value < -rounding || value > most + rounding;
+        if (look.transparent) value = alpha > 0 ? value / alpha : 0;
+        shown.value[channel] = value;
     }
     return shown;
 }
 
 }  // namespace
 
-std::size_t write_png(OutputFile& file, const Image& image, const glm::dvec3& background,
+CodedPicture coded_picture(const std::string& name, const Image& image, const PngLook& look,
+                           ImageColorSpace space) {
+    check_image_size(name, image.width, image.height);
+    require_finite(name, image);
+    const std::size_t channels = look.transparent ? 4 : 3;
+    CodedPicture coded{CodedImage(image.width, image.height, static_cast<int>(channels), look.bits),
+                       0};
+    std::uint16_t* code = coded.codes.codes.data();
+    for (std::size_t pixel = 0; pixel < image.rgba.size() / 4; ++pixel) {
+        const ShownPixel shown = shown_pixel(&image.rgba[4 * pixel], look);
+        for (std::size_t channel = 0; channel < channels; ++channel) {
+            // Opacity has no curve.
+            *code++ = display_code(shown.value[channel],
+                                   channel == 3 ? ImageColorSpace::display : space, look.bits);
+        }
+        coded.clamped_pixels += shown.clamped;
+    }
+    return coded;
+}
+
+std::size_t write_png(OutputFile& file, const Image& image, const PngLook& look,
                       ImageColorSpace space) {
-    const DisplayPicture shown = display_picture(file.path().string(), image, background, space);
-    write_png(file, shown.codes);
-    return shown.clamped_pixels;
+    const CodedPicture coded = coded_picture(file.path().string(), image, look, space);
+    write_png(file, coded.codes);
+    return coded.clamped_pixels;
 }
 
-std::string encode_png(const Image& image, const glm::dvec3& background, ImageColorSpace space) {
-    return encode_png(display_picture("picture", image, background, space).codes);
-}
-
-std::vector<std::uint8_t> png_codes(const Image& image, const glm::dvec3& background,
-                                    ImageColorSpace space) {
-    const DisplayPicture shown = display_picture("picture", image, background, space);
-    return {shown.codes.codes.begin(), shown.codes.codes.end()};
+std::string encode_png(const Image& image, const PngLook& look, ImageColorSpace space) {
+    return encode_png(coded_picture("picture", image, look, space).codes);
 }
 
 void write_png(OutputFile& file, const CodedImage& image) {
-    const std::string name = file.path().string();
-    check_image_size(name, image.width, image.height);
-    Png writer(true);
-    if (writer.info == nullptr) fail("{}: cannot write: out of memory", name);
-    const std::size_t row_codes =
-        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.channels);
-    std::vector<png_byte> row(row_codes * static_cast<std::size_t>(image.bit_depth / 8));
-    const bool written = succeeds(writer.png, [&] {
-        png_set_write_fn(writer.png, file.stream(), write_block, flush_nothing);
-        png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(image.width),
-                     static_cast<png_uint_32>(image.height), image.bit_depth,
-                     color_type(image.channels), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                     PNG_FILTER_TYPE_DEFAULT);
-        png_set_sRGB(writer.png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
-        png_write_info(writer.png, writer.info);
-        for (int y = 0; y < image.height; ++y) {
-            pack_row(image, &image.codes[static_cast<std::size_t>(y) * row_codes], row);
-            png_write_row(writer.png, row.data());
-        }
-        png_write_end(writer.png, writer.info);
-    });
-    if (!written) fail("{}: cannot write: {}", name, one_line(writer.message));
+    encode(file.path().string(), image, file.stream(), write_block);
 }
 
 std::string encode_png(const CodedImage& image) {
-    assert(image.channels == 3 && image.bit_depth == 8);
-    const std::vector<png_byte> bytes(image.codes.begin(), image.codes.end());
-    png_image header{};
-    header.version = PNG_IMAGE_VERSION;
-    header.width = static_cast<png_uint_32>(image.width);
-    header.height = static_cast<png_uint_32>(image.height);
-    header.format = PNG_FORMAT_RGB;
-    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
-    std::string encoded(size, '\0');
-    if (png_image_write_to_memory(&header, encoded.data(), &size, 0, bytes.data(), 0, nullptr) == 0)
-        fail("cannot make a PNG: {}", one_line(header.message));
-    encoded.resize(size);
+    std::string encoded;
+    encode("picture", image, &encoded, append_block);
     return encoded;
 }
 

@@ -2,11 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
-#include <glm/vec3.hpp>
 #include <string>
-#include <vector>
 
 #include "base/output_file.h"
 #include "image/coded_image.h"
@@ -14,23 +11,31 @@
 
 namespace lamina {
 
-// Writes a picture to look at: C + (1-A) * background, clamped to 0..1, encoded to sRGB if it is
-// linear light, as 8-bit RGB with an sRGB chunk and no time stamp. Returns how many pixels were
-// clamped by more than 1/510 in some channel; smaller excesses are rounding of a low-precision
-// target. Throws Error as write_exr() does. The caller commits the file.
-std::size_t write_png(OutputFile& file, const Image& image, const glm::dvec3& background,
+// A picture as codes to look at, and the number of its pixels that were clamped by more than 1/510
+// in some channel; smaller excesses are rounding of a low-precision target.
+struct CodedPicture {
+    CodedImage codes;
+    std::size_t clamped_pixels = 0;
+};
+
+// Returns the codes that PNG files, screens and films show: C + (1-A) * background or, if the look
+// is transparent, C/A with the opacity A as straight alpha; clamped to 0..1, encoded to sRGB if it
+// is linear light. A transparent picture is clamped if C exceeds A. `name`: for messages. Throws
+// Error for numbers that are not finite.
+CodedPicture coded_picture(const std::string& name, const Image& image, const PngLook& look,
+                           ImageColorSpace space);
+
+// Writes the codes of coded_picture() with an sRGB chunk and no time stamp. Returns the number of
+// clamped pixels. Throws Error as write_exr() does. The caller commits the file.
+std::size_t write_png(OutputFile& file, const Image& image, const PngLook& look,
                       ImageColorSpace space = ImageColorSpace::linear);
 
 // Writes the codes unchanged, marked as sRGB.
 void write_png(OutputFile& file, const CodedImage& image);
 
-// Return the bytes of a PNG file of 8-bit RGB: for an image, the codes of write_png().
+// Return the bytes of the file that write_png() writes.
 std::string encode_png(const CodedImage& image);
-std::string encode_png(const Image& image, const glm::dvec3& background, ImageColorSpace space);
-
-// Returns the codes that write_png() stores: red, green and blue, row 0 on top.
-std::vector<std::uint8_t> png_codes(const Image& image, const glm::dvec3& background,
-                                    ImageColorSpace space);
+std::string encode_png(const Image& image, const PngLook& look, ImageColorSpace space);
 
 // Reads a PNG file's codes; palettes and grey of fewer than 8 bits are expanded to 8 bits, and a
 // transparent colour becomes alpha. Throws Error for damaged files and sizes beyond image_limits.h.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "base/error.h"
 #include "base/output_file.h"
@@ -22,6 +23,17 @@ PictureComparison compared(const Difference& difference) {
 void check_range(double range) {
     if (!(range > 0 && std::isfinite(range)))
         fail("range: found {}, expected a finite number above 0, in 1/255", range);
+}
+
+// Returns a picture with straight alpha as associated linear light.
+PreciseImage associated(const CodedImage& coded) {
+    PreciseImage image(coded.width, coded.height);
+    const double most = coded.bit_depth == 16 ? 65535 : 255;
+    for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+        const double alpha = coded.codes[i | 3] / most;
+        image.rgba[i] = (i & 3) == 3 ? alpha : alpha * linear_from_srgb(coded.codes[i] / most);
+    }
+    return image;
 }
 
 }  // namespace
@@ -59,39 +71,40 @@ LoadedPicture load_picture(const std::filesystem::path& file) {
         picture.image = to_double(*pixels);
     else if (auto* const precise = std::get_if<PreciseImage>(&loaded.pixels))
         picture.image = std::move(*precise);
+    else if (const auto& coded = std::get<CodedImage>(loaded.pixels); coded.channels == 4)
+        picture.image = associated(coded);
     else
-        fail("{}: holds codes over a background, expected .exr or .npy", file.string());
+        fail("{}: holds codes over a background, expected .exr, .npy or a .png with alpha",
+             file.string());
     picture.image.space = picture.space.value_or(ImageColorSpace::linear);
     return picture;
 }
 
-void save_picture(const Image& picture, const std::filesystem::path& file,
-                  const glm::dvec3& background,
+void save_picture(const Image& picture, const std::filesystem::path& file, const PngLook& look,
                   const std::map<std::string, std::string>& attributes) {
     const std::string suffix = file.extension().string();
     if (suffix != ".png" && suffix != ".exr" && suffix != ".npy")
-        fail("{}: found the suffix \"{}\", expected .png, .exr or .npy", file.string(), suffix);
+        fail("{}: {}", file.string(), refusal_of_suffix(suffix));
     AtomicFile output(file);
-    write_picture(output, picture, background, attributes, picture.space);
+    write_picture(output, picture, look, attributes, picture.space);
     output.commit();
 }
 
 void save_picture(const PreciseImage& picture, const std::filesystem::path& file,
-                  const glm::dvec3& background,
-                  const std::map<std::string, std::string>& attributes) {
-    if (file.extension() != ".npy")
-        return save_picture(to_float(picture), file, background, attributes);
+                  const PngLook& look, const std::map<std::string, std::string>& attributes) {
+    if (file.extension() != ".npy") return save_picture(to_float(picture), file, look, attributes);
     AtomicFile output(file);
     write_npy(output, picture);
     output.commit();
 }
 
-std::string picture_png(const Image& picture, const glm::dvec3& background) {
-    return encode_png(picture, background, picture.space);
+std::string picture_png(const Image& picture, const PngLook& look) {
+    return encode_png(picture, look, picture.space);
 }
 
 std::vector<std::uint8_t> screen_codes(const Image& picture, const glm::dvec3& background) {
-    return png_codes(picture, background, picture.space);
+    const CodedImage shown = coded_picture("picture", picture, background, picture.space).codes;
+    return {shown.codes.begin(), shown.codes.end()};
 }
 
 }  // namespace lamina

@@ -53,6 +53,16 @@ Form<bool> flag_form() {
             {{"type", "boolean"}}};
 }
 
+Form<int> code_bits_form() {
+    return {[](JsonReader& reader, const std::string& key) {
+                const nlohmann::json& value = reader.value(key);
+                if (value != 8 && value != 16) reader.reject(key, "8 or 16");
+                return value.get<int>();
+            },
+            [](const int& value) { return KeyJson(value); },
+            {{"enum", {8, 16}}}};
+}
+
 Form<std::string> text_form() {
     return {[](JsonReader& reader, const std::string& key) { return reader.text(key); },
             [](const std::string& text) { return text.empty() ? KeyJson() : KeyJson(text); },

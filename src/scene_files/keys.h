@@ -326,6 +326,7 @@ Form<Struct> object_form(const KeyTable<Struct>& (*table)()) {
 }
 
 Form<bool> flag_form();
+Form<int> code_bits_form();               // 8 or 16
 Form<std::string> text_form();            // an empty text is left out when it is written
 Form<std::filesystem::path> path_form();  // relative to the file; an empty path is left out
 Form<glm::dvec3> vector_form();           // three finite numbers

@@ -54,14 +54,7 @@ void tree_keys(KeyTable<TreeSettings>& keys) {
         .required();
     keys.key("nodes", &TreeSettings::nodes, words_form<NodeArithmetic>());
     keys.key("code", &TreeSettings::code, words_form<NodeCode>());
-    Form<int> bits{[](JsonReader& reader, const std::string& key) {
-                       const nlohmann::json& value = reader.value(key);
-                       if (value != 8 && value != 16) reader.reject(key, "8 or 16");
-                       return value.get<int>();
-                   },
-                   [](const int& value) { return KeyJson(value); },
-                   {{"enum", {8, 16}}}};
-    keys.key("alpha_bits", &TreeSettings::alpha_bits, bits);
+    keys.key("alpha_bits", &TreeSettings::alpha_bits, code_bits_form());
 }
 
 Form<Auto<TreeSettings>> tree_form() {

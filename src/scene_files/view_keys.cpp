@@ -126,6 +126,9 @@ void image_keys(KeyTable<Scene>& keys) {
              "What triples and colour maps are given in, and pictures composited in: linear "
              "light, or display values as VTK and ParaView do.");
     keys.key("background", &Scene::background, color_form());
+    keys.key("transparent", &Scene::transparent, flag_form(),
+             "PNG files and films have straight alpha and no background.");
+    keys.key("png_bits", &Scene::png_bits, code_bits_form(), "Of each code in PNG files.");
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "base/output_file.h"
 #include "image/coded_image.h"
@@ -112,9 +114,81 @@ TEST(Png, DisplayValuesAreStoredAsTheyAre) {
     const TemporaryFolder folder;
     const Image image = row_of({{0.25f, 0, 0.1f, 0.5f}, {1, 0.2f, 1.5f, 1}});
     AtomicFile file(folder / "a.png");
-    EXPECT_EQ(write_png(file, image, {0.5, 1, 0}, ImageColorSpace::display), 1u);
+    EXPECT_EQ(write_png(file, image, glm::dvec3(0.5, 1, 0), ImageColorSpace::display), 1u);
     file.commit();
     EXPECT_EQ(read_png(folder / "a.png").codes, (Codes{128, 128, 26, 255, 51, 255}));
+}
+
+// Half covered pixels show twice their associated colour: .25 / .5 = .5 -> 188, .18 -> 118; .001 ->
+// 3; the opacity .5 -> 127.5, rounded up. The background does not matter.
+TEST(Png, TransparentHasStraightAlphaAndNoBackground) {
+    const TemporaryFolder folder;
+    const Image image = row_of({{0.25f, 0.09f, 0.0005f, 0.5f},
+                                {0, 0, 0, 0},
+                                {0.5f, 0.18f, 0.001f, 1},
+                                {0.6f, 0, 0, 0.5f}});
+    AtomicFile file(folder / "a.png");
+    // Only the last pixel is clamped: it shines more than it covers.
+    EXPECT_EQ(write_png(file, image, {{0.5, 0.36, 1}, true}), 1u);
+    file.commit();
+    const CodedImage back = read_png(folder / "a.png");
+    ASSERT_EQ(back.channels, 4);
+    EXPECT_EQ(back.codes, (Codes{188, 118, 3, 128, 0, 0, 0, 0, 188, 118, 3, 255, 255, 0, 0, 128}));
+    const Image display = row_of({{0.25f, 0.05f, 0, 0.5f}});
+    EXPECT_EQ(coded_picture("a", display, {{}, true}, ImageColorSpace::display).codes.codes,
+              (Codes{128, 26, 0, 128}));
+}
+
+// Composited over a background in linear light, a transparent PNG is the picture itself over it.
+// Codes differ from their numbers by at most half a code: e. The opacity changes light by e times
+// the difference of colour and background, at most 1; the colour by e times the curve's largest
+// slope, 2.4 / 1.055.
+TEST(Png, TransparentOverABackgroundIsThePictureOverIt) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> share(0, 1);
+    Image image(40, 30);
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        const float alpha = share(random);
+        for (std::size_t c = 0; c < 3; ++c) image.rgba[i + c] = alpha * share(random);
+        image.rgba[i + 3] = alpha;
+    }
+    for (const int bits : {8, 16}) {
+        const double most = bits == 8 ? 255 : 65535, e = .5 / most;
+        const CodedPicture coded = coded_picture("a", image, {{}, true, bits}, {});
+        EXPECT_EQ(coded.clamped_pixels, 0u);
+        EXPECT_EQ(coded.codes.bit_depth, bits);
+        for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+            const double alpha = coded.codes.codes[i | 3] / most, behind = .3;
+            if ((i & 3) == 3) continue;
+            const double over =
+                alpha * linear_from_srgb(coded.codes.codes[i] / most) + (1 - alpha) * behind;
+            const double exact = image.rgba[i] + (1.0 - image.rgba[i | 3]) * behind;
+            EXPECT_NEAR(over, exact, e * (1 + 2.4 / 1.055) + 1e-6) << i;
+        }
+    }
+}
+
+TEST(Png, SixteenBitsAreThoseOfTheCurve) {
+    for (const double value : {0., 1e-5, .001, .0031308, .18, .5, .999, 1., 1.5, -1.}) {
+        const double shown = std::clamp(value, 0., 1.);
+        EXPECT_EQ(display_code(value, ImageColorSpace::linear, 16),
+                  std::lround(65535 * srgb_from_linear(shown)));
+        EXPECT_EQ(display_code(value, ImageColorSpace::display, 16), std::lround(65535 * shown));
+    }
+    const Image image = row_of({{0.5f, 0, 0, 0.5f}});
+    EXPECT_EQ(coded_picture("a", image, {{0, 1, 0}, false, 16}, {}).codes.codes,
+              (Codes{48192, 48192, 0}));  // 65535 * .735357 = 48191.6
+}
+
+TEST(Png, BytesInMemoryAreThoseOfTheFile) {
+    const TemporaryFolder folder;
+    const Image image = row_of({{0.5f, 0.18f, 0.001f, 1}, {0.25f, 0, 0, 0.5f}});
+    for (const PngLook& look : {PngLook{}, PngLook{{}, true, 16}}) {
+        AtomicFile file(folder / "a.png");
+        write_png(file, image, look);
+        file.commit();
+        EXPECT_EQ(encode_png(image, look, {}), read_bytes_of(folder / "a.png"));
+    }
 }
 
 TEST(Png, EveryCodeComesBack) {

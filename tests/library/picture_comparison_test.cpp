@@ -74,11 +74,25 @@ TEST(PictureFiles, KeepPrecisionAndColorSpace) {
     expect_error([&] { compare(exr.image, to_double(picture)); }, {"display", "linear"});
     expect_error([&] { error_of(picture, exr.image); }, {"display", "linear"});
     EXPECT_EQ(to_float(exr.image).rgba, picture.rgba);
-    save_picture(picture, folder.path() / "a.png", {0, 0, 1});
+    save_picture(picture, folder.path() / "a.png", glm::dvec3(0, 0, 1));
     EXPECT_EQ(compare_files(folder.path() / "a.npy", folder.path() / "a.npy").all.linf, 0);
     EXPECT_EQ(compare_files(folder.path() / "a.png", folder.path() / "a.png").channels.size(), 3u);
     expect_error([&] { load_picture(folder.path() / "a.png"); }, {"a.png", ".exr"});
-    EXPECT_EQ(picture_png(picture, {0, 0, 1}).substr(1, 3), "PNG");
+    EXPECT_EQ(picture_png(picture, glm::dvec3(0, 0, 1)).substr(1, 3), "PNG");
+}
+
+// Half a code of 16 bits is 8e-6; the curve's largest slope is 2.3.
+TEST(PictureFiles, PngFilesWithAlphaAreAssociatedLinearLightAgain) {
+    const TemporaryFolder folder;
+    PreciseImage precise(2, 1);
+    precise.rgba = {.1, .2, 0, .4, .9, 1e-4, .5, 1};
+    save_picture(precise, folder.path() / "a.png", {{}, true, 16});
+    const LoadedPicture back = load_picture(folder.path() / "a.png");
+    EXPECT_EQ(back.image.space, ImageColorSpace::linear);
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(back.image.rgba[i], precise.rgba[i], 3e-5);
+    expect_error([&] { save_picture(precise, folder.path() / "a.JPEG"); },
+                 {"a.JPEG", "JPEG would add errors", ".png, .exr or .npy"});
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.JPEG"));
 }
 
 constexpr const char* small_scene =

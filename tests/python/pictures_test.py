@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import gc
+import io
 import struct
 import zlib
 
@@ -78,10 +79,29 @@ def test_files(picture, tmp_path):
     assert lamina.compare(tmp_path / "a.png", tmp_path / "a.png").linf == 0
     assert b"chosen" in (tmp_path / "a.exr").read_bytes() or b"uses" in (tmp_path / "a.exr").read_bytes()
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
-    with pytest.raises(lamina.Error, match="suffix \".jpg\", expected .png, .exr or .npy"):
+    with pytest.raises(lamina.Error, match="suffix \".jpg\": JPEG would add errors .*, expected .png, .exr or .npy"):
         picture.save(tmp_path / "a.jpg")
     with pytest.raises(lamina.Error):
         picture.save(tmp_path / "nowhere" / "a.png")
+
+
+def test_transparent_files_have_straight_alpha(blob, function, tmp_path):
+    image = pytest.importorskip("PIL.Image")
+    picture = lamina.render(blob, function, size=SIZE, background="white", transparent=True)
+    picture.save(tmp_path / "a.png")
+    codes = np.asarray(image.open(tmp_path / "a.png"))
+    rgba = picture.array.astype(np.float64)
+    assert codes.shape == rgba.shape and 0 < codes[:, :, 3].max() and codes[:, :, 3].min() < 255
+    assert np.abs(codes[:, :, 3] - 255 * rgba[:, :, 3]).max() <= 0.501
+    with np.errstate(invalid="ignore"):
+        linear = np.where(rgba[:, :, 3:] > 0, rgba[:, :, :3] / rgba[:, :, 3:], 0)
+    srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    assert np.abs(codes[:, :, :3] - 255 * srgb).max() <= 0.501
+    assert np.array_equal(np.asarray(image.open(io.BytesIO(picture._repr_png_()))), codes)
+    picture.save(tmp_path / "b.png", transparent=False)
+    assert image.open(tmp_path / "b.png").mode == "RGB"
+    # The same picture within the rounding of codes: half a code, times the curve's largest slope, and of the opacity.
+    assert picture.compare(tmp_path / "a.png").linf <= 0.5 * (1 + 2.4 / 1.055)
 
 
 def png_codes(data):

@@ -25,7 +25,8 @@ def test_keywords_are_the_keys_of_files():
                              emulate={"bits": 6}, trace={"tolerance": 1e-4}, clip={"box": {"min": [0, 0, 0], "max": [1, 1, 1]}},
                              set={"image.height": 8, "render.slice.order": "front_to_back", "camera.eye.0": 3})
     scene = session.resolved_scene
-    assert scene["image"] == {"width": 11, "height": 8, "color_space": "display", "background": [1, 0, 0]}
+    assert scene["image"] == {"width": 11, "height": 8, "color_space": "display", "background": [1, 0, 0],
+                              "transparent": False, "png_bits": 8}
     assert scene["render"]["target"] == "fixed8" and scene["render"]["max_error"] == 3
     assert scene["render"]["slice"]["samples"] == 5 and scene["render"]["slice"]["order"] == "front_to_back"
     assert scene["render"]["emulate"]["bits"] == 6 and scene["render"]["trace"]["tolerance"] == 1e-4

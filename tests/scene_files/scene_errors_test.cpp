@@ -55,6 +55,8 @@ TEST(SceneErrors, NameFileKeyFoundAndExpected) {
         {"/image/width", 0, {"image.width: found 0"}},
         {"/image/width", 1000000, {"image.width: found 1000000"}},
         {"/image/height", "tall", {"image.height", "tall"}},
+        {"/image/transparent", 1, {"image.transparent: found 1", "true or false"}},
+        {"/image/png_bits", 12, {"image.png_bits: found 12", "expected 8 or 16"}},
         {"/image/background", {1, 2}, {"image.background", "three"}},
         {"/lighting", "bright", {"lighting: found \"bright\"", "an object"}},
         {"/lighting", {{"difuse", 1}}, {"lighting.difuse: unknown key", "\"diffuse\""}},

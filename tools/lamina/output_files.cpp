@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "image/picture.h"
 #include "mesh_files/mesh_file.h"
 #include "scene/given_transfer.h"
 #include "volume_files/volume_file.h"
@@ -102,8 +103,7 @@ PictureFormat picture_format(const std::string& output, const std::string& forma
     const auto found = format_of(piped ? format : suffix.substr(suffix.empty() ? 0 : 1));
     if (found) return *found;
     if (piped) throw UsageError(fmt::format("--format {}: expected one of png, exr, npy", format));
-    throw UsageError(
-        fmt::format("-o {}: found the suffix \"{}\", expected .exr, .png or .npy", output, suffix));
+    throw UsageError(fmt::format("-o {}: {}", output, refusal_of_suffix(suffix)));
 }
 
 }  // namespace lamina

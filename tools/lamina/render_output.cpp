@@ -83,7 +83,7 @@ class SinglePicture : public RenderOutput {
 PictureFile::PictureFile(const std::string& output, PictureFormat format)
     : format_(format), file_(open_file(output)) {}
 
-std::size_t PictureFile::write(const Image& image, const glm::dvec3& background,
+std::size_t PictureFile::write(const Image& image, const PngLook& look,
                                const PictureAttributes& attributes, ImageColorSpace space) {
     std::size_t clamped = 0;
     switch (format_) {
@@ -91,7 +91,7 @@ std::size_t PictureFile::write(const Image& image, const glm::dvec3& background,
             write_exr(*file_, image, attributes, space);
             break;
         case PictureFormat::png:
-            clamped = write_png(*file_, image, background, space);
+            clamped = write_png(*file_, image, look, space);
             break;
         case PictureFormat::npy:
             write_npy(*file_, image);
@@ -101,9 +101,9 @@ std::size_t PictureFile::write(const Image& image, const glm::dvec3& background,
     return clamped;
 }
 
-std::size_t PictureFile::write(const PreciseImage& image, const glm::dvec3& background,
+std::size_t PictureFile::write(const PreciseImage& image, const PngLook& look,
                                const PictureAttributes& attributes, ImageColorSpace space) {
-    if (format_ != PictureFormat::npy) return write(to_float(image), background, attributes, space);
+    if (format_ != PictureFormat::npy) return write(to_float(image), look, attributes, space);
     write_npy(*file_, image);
     file_->commit();
     return 0;
@@ -176,7 +176,7 @@ std::int64_t write_picture(PictureFile& file, Pipeline& pipeline, const Image& p
     const Scene& scene = pipeline.scene();
     const auto write = [&](const auto& image) {
         return static_cast<std::int64_t>(
-            file.write(image, scene.background, attributes, scene.color_space));
+            file.write(image, scene.png_look(), attributes, scene.color_space));
     };
     return scene.method == Method::trace ? write(pipeline.traced()->image) : write(picture);
 }

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <glm/vec3.hpp>
 #include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -42,11 +41,11 @@ class PictureFile {
     // Throws Error; UsageError if the output is stdout and stdout is a terminal.
     PictureFile(const std::string& output, PictureFormat format);
 
-    // `space`: that of image and background. Returns the number of clamped pixels (PNG).
-    std::size_t write(const Image& image, const glm::dvec3& background,
-                      const PictureAttributes& attributes, ImageColorSpace space);
+    // `space`: that of image and look. Returns the number of clamped pixels (PNG).
+    std::size_t write(const Image& image, const PngLook& look, const PictureAttributes& attributes,
+                      ImageColorSpace space);
     // Writes a picture in double precision, which NPY keeps; the other formats round it to float32.
-    std::size_t write(const PreciseImage& image, const glm::dvec3& background,
+    std::size_t write(const PreciseImage& image, const PngLook& look,
                       const PictureAttributes& attributes, ImageColorSpace space);
 
   private:

@@ -251,6 +251,9 @@ void add_view_options(CLI::App& verb, ViewOptions& options) {
                     "Colour behind the picture: a CSS name, #rrggbb, or linear light [r, g, b]")
         ->option_text("COLOR")
         ->group(group);
+    verb.add_flag("--transparent", options.transparent,
+                  "No background: PNG files and films with straight alpha (image.transparent)")
+        ->group(group);
 }
 
 Adjustments adjustments_of(const ViewOptions& options, ImageColorSpace space) {
@@ -298,6 +301,7 @@ std::vector<std::string> settings_of(const ViewOptions& options) {
         settings.push_back(fmt::format("image.height={}", height));
     }
     if (!options.background.empty()) settings.push_back("image.background=" + options.background);
+    if (options.transparent) settings.emplace_back("image.transparent=true");
     return settings;
 }
 

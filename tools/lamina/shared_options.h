@@ -60,6 +60,7 @@ struct ViewOptions {
     ViewTurn turn;
     double zoom = 1, density = 1;
     std::string size, colormap, range, background;
+    bool transparent = false;
 };
 
 void add_view_options(CLI::App& verb, ViewOptions& options);

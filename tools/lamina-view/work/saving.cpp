@@ -18,9 +18,9 @@ void write(const std::filesystem::path& file, const Shown& shown) {
                                                            {"plan", shown.explanation},
                                                            {"renderer", shown.statistics.drawn_by}};
     if (scene.method == Method::trace)
-        save_picture(*shown.truth, file, scene.background, attributes);
+        save_picture(*shown.truth, file, scene.png_look(), attributes);
     else
-        save_picture(*shown.full, file, scene.background, attributes);
+        save_picture(*shown.full, file, scene.png_look(), attributes);
 }
 
 }  // namespace
