@@ -120,6 +120,7 @@ class OwnFiles {
 
   private:
     std::set<std::string> listed() const;  // lines of the list
+    void write(const std::set<std::string>& lines) const;
 
     std::filesystem::path folder_;
     std::string verb_;

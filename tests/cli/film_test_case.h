@@ -19,7 +19,7 @@ namespace lamina {
 
 // Films of a scene of coloured blobs, 48 x 36 pixels. Tests that need ffmpeg are skipped without
 // it.
-class FilmTest : public testing::Test {
+class FilmTest : public ::testing::Test {
   protected:
     void SetUp() override { write_scene(gaussians_scene(16, 48, 36, 40)); }
 
