@@ -17,8 +17,7 @@ set(glad_source ${glad_dir}/src/gl.c)
 add_custom_command(
     OUTPUT ${glad_source} ${glad_dir}/include/glad/gl.h
     COMMAND ${LAMINA_GLAD_PYTHON} -m glad --quiet --reproducible --api gl:core=4.5
-        --extensions GL_EXT_shader_framebuffer_fetch,GL_ARB_fragment_shader_interlock
-        --out-path ${glad_dir} c --mx
+        --extensions "" --out-path ${glad_dir} c --mx
     COMMENT "Generating the OpenGL loader with glad"
     VERBATIM)
 file(MAKE_DIRECTORY ${glad_dir}/include)

@@ -47,3 +47,12 @@ uvec4 composited(uvec3 color, uint alpha, uvec4 there) {
     }
     return result;
 }
+
+// Returns the opacity `there` of a pixel with that of a fragment composited in the same way.
+uint composited_opacity(uint alpha, uint there) {
+#ifdef FRONT_TO_BACK
+    return under(LARGEST_CODE, alpha, there, there);
+#else
+    return over(LARGEST_CODE, alpha, there);
+#endif
+}

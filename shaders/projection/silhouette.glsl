@@ -4,30 +4,15 @@
 // the polygon covers a little more than the tet, and rasterisers move its corners.
 //
 // CAREFUL: depths are double, for faces seen nearly edge-on, tets at the near plane, and an eye inside the tet.
-// EXACT_SEGMENTS: so are lengths and scalars. CUT: the cell fragment ends at planes of constant scalar. silhouette.vert
-// describes the inputs.
+// EXACT_SEGMENTS: so are lengths and scalars. CUT: the cell fragment ends at planes of constant scalar. WINDOW_PLACE:
+// the pixel's window coordinates.
+#include "projection/silhouette_record.glsl"
+
 #ifdef CAREFUL
-flat in vec4 face_depths[6];
 uniform dvec3 ray_perturbation;  // pixels: moves rays along faces to one side, equal for all tets
 uniform float near_depth;  // depth (projection/tet_record.h) of the near plane
-#else
-flat in vec4 face_depths[3];
 #endif
-flat in vec4 center;
-#ifdef SCALARS
-flat in vec4 scalars;
-#endif
-#if defined(EXACT_SEGMENTS) && defined(SCALARS)
-flat in vec4 scalars_low;
-#endif
-flat in vec4 limits;
-#ifdef CUT
-flat in vec4 cuts;
-flat in OPTICS low_optics, high_optics;
-#endif
-
 #ifdef LIT
-flat in vec4 gradients[3];
 uniform vec4 view_axes[3];  // unit vectors to the right, up and forward, in world space
 #endif
 
@@ -60,7 +45,7 @@ dvec4 four_doubles(vec4 high, vec4 low) { return dvec4(high) + dvec4(low); }
 // Returns a pixel's place, relative to the center, with the ray perturbation. This moves the ray in space; its
 // component along the ray does not count.
 dvec2 moved_place(vec2 place) {
-    dvec2 from_middle = dvec2((gl_FragCoord.xy - image_middle) * pixel_size);
+    dvec2 from_middle = dvec2((WINDOW_PLACE - image_middle) * pixel_size);
     return dvec2(place) + ray_perturbation.xy - ray_perturbation.z * from_middle;
 }
 
@@ -147,14 +132,14 @@ void find_gradients(vec2 place, vec2 from_center, vec2 reach, inout FragmentSegm
 #ifdef ORTHOGRAPHIC
     segment.to_eye = -view_axes[2].xyz;
 #else
-    vec2 from_middle = (gl_FragCoord.xy - image_middle) * pixel_size;
+    vec2 from_middle = (WINDOW_PLACE - image_middle) * pixel_size;
     segment.to_eye = -normalize((view_axes[2] + from_middle.x * view_axes[0] + from_middle.y * view_axes[1]).xyz);
 #endif
 }
 #endif
 
 FragmentSegment find_segment() {
-    vec2 place = gl_FragCoord.xy - center.xy;  // exact
+    vec2 place = WINDOW_PLACE - center.xy;  // exact
 #ifdef EXACT_SEGMENTS
     dvec2 moved = moved_place(place);
     dvec2 exact_depths = find_exact_depths(moved);
@@ -183,7 +168,7 @@ FragmentSegment find_segment() {
     vec2 z = -1.0 / min(center.z + depths, -1e-30);
     segment.world_length = difference * z.x * z.y;
 #ifndef THICKNESS_DZ
-    vec2 from_middle = (gl_FragCoord.xy - image_middle) * pixel_size;
+    vec2 from_middle = (WINDOW_PLACE - image_middle) * pixel_size;
     segment.world_length *= sqrt(1.0 + dot(from_middle, from_middle));
 #endif
     vec2 from_center = depths * z * center.w;

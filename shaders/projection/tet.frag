@@ -1,8 +1,5 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-#ifdef FRAMEBUFFER_FETCH
-#extension GL_EXT_shader_framebuffer_fetch : require
-#endif
 // Composites one fragment of projected tetrahedra over the target: the colour and opacity of the pixel's ray inside a
 // cell fragment. A cell fragment is a tet, or the region of one on which the transfer function is linear. FAN: it is
 // drawn as the triangles of Kraus 2004 (fan.vert), otherwise as its silhouette (silhouette.vert). OPACITY_ONLY: draws
@@ -11,6 +8,8 @@
 #ifdef FAN
 #include "projection/fan.glsl"
 #else
+#define SEEN flat in
+#define WINDOW_PLACE gl_FragCoord.xy
 #include "projection/silhouette.glsl"
 #endif
 #include "projection/tet_color.glsl"

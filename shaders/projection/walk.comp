@@ -51,6 +51,7 @@ uniform usamplerBuffer tiles;         // first column, first row, first and last
 uniform usamplerBuffer listed_faces;  // numbers of open faces
 uniform int first_tile;               // of the dispatch
 uniform ivec2 image_size;
+uniform int picture_row;    // pixels in a row of the buffer
 uniform bool begins;        // this is the first dispatch of these tiles
 uniform int rounds;         // fewer than software rasterisers allow for all loops of an invocation together
 uniform double near_depth;  // from the mesh's center
@@ -163,7 +164,7 @@ void main() {
     uvec4 tile = texelFetch(tiles, first_tile + int(gl_WorkGroupID.x));
     ivec2 pixel = ivec2(tile.xy) + pixel_in_tile();
     if (any(greaterThanEqual(pixel, image_size))) return;
-    int place = pixel.y * image_size.x + pixel.x;
+    int place = pixel.y * picture_row + pixel.x;
     uint number = gl_WorkGroupID.x * 64u + gl_LocalInvocationIndex;
     aim(vec2(pixel.x + 0.5, image_size.y - pixel.y - 0.5));
 

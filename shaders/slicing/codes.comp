@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Composites slabs on codes: rounds the colour and the opacity of each to codes, as render.emulate
 // says, and computes OVER on codes in registers. The picture keeps the codes between two dispatches.
+// OPACITY_ONLY: opacity alone, for a leaf of a tree.
 #include "gl/pixels.glsl"
 #include "slicing/segment.glsl"
 #include "slicing/slab_codes.glsl"
@@ -16,6 +17,9 @@ uniform int output_begin;  // place of pixel (0, 0), in words
 uniform int output_row;    // words in a row
 uniform float first_slab;  // slabs that this dispatch draws
 uniform float slab_count;
+#ifdef OPACITY_ONLY
+uniform DEPTH depth_scale;  // samples of the ray over samples of the leaf (docs/numerics.md, section 3)
+#endif
 
 uvec2 ranks_if_dithered(int slab) {
 #ifdef DITHER_PERIOD
@@ -35,21 +39,25 @@ void main() {
     uint words[CODE_WORDS];
     for (int word = 0; word < CODE_WORDS; ++word) words[word] = words_of_picture[place + word];
     uvec4 codes = unpacked_codes(words);
-    float first = max(first_slab, floor(float(whole.x / slab_thickness)) - 1.0);
-    float end = min(first_slab + slab_count, ceil(float(whole.y / slab_thickness)) + 1.0);
-    for (float i = first; i < end; ++i) {
+    vec2 range = slabs_of(whole, first_slab, slab_count);
+    for (float i = range.x; i < range.y; ++i) {
 #ifdef FRONT_TO_BACK
         float slab = i;
 #else
-        float slab = first + end - 1.0 - i;
+        float slab = range.x + range.y - 1.0 - i;
 #endif
         REAL2 depths = slab_depths(slab, 1.0);
         depths = REAL2(max(depths.x, whole.x), min(depths.y, whole.y));
         if (!(depths.y > depths.x)) continue;
         Segment segment = integrate(ray, depths);
         CodedSlab coded = CodedSlab(pixel, uint(slab), ranks_if_dithered(int(slab)));
+#ifdef OPACITY_ONLY
+        uint alpha = alpha_code(coded, opacity_from_depth(segment.depth * depth_scale));
+        codes.r = composited_opacity(alpha, codes.r);
+#else
         uint alpha = alpha_code(coded, opacity_from_depth(segment.depth));
         codes = composited(color_codes(coded, segment.color), alpha, codes);
+#endif
     }
     words = packed_codes(codes);
     for (int word = 0; word < CODE_WORDS; ++word) words_of_picture[place + word] = words[word];

@@ -61,6 +61,14 @@ vec3 point_at(Ray ray, REAL depth) { return vec3(ray.origin + depth * ray.direct
 // Returns the depths of the front and the back of `count` slabs from number `slab` on.
 REAL2 slab_depths(float slab, float count) { return REAL2(REAL(slab), REAL(slab + count)) * slab_thickness; }
 
+// Returns the slabs, of `count` from `slab` on, in which a part of the ray may lie: the first of
+// them, and the one behind the last.
+vec2 slabs_of(REAL2 depths, float slab, float count) {
+    float first = floor(float(depths.x / slab_thickness)) - 1.0;
+    float end = ceil(float(depths.y / slab_thickness)) + 1.0;
+    return vec2(max(slab, first), min(slab + count, end));
+}
+
 // Returns the depths between which the ray is inside the box and in the range `slab`; y <= x if
 // there are none. A ray that runs in a first face of the box (smallest coordinate) is inside; a ray
 // in a last face is inside only if that face is last_face.

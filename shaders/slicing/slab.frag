@@ -1,23 +1,15 @@
 #version 450 core
 // SPDX-License-Identifier: Apache-2.0
-#ifdef FRAMEBUFFER_FETCH
-#extension GL_EXT_shader_framebuffer_fetch : require
-#endif
 // Draws one slab: the part of the fragment's ray inside the slab and inside the box. Opacity comes
 // from extinction and true length, never from an assumed step. BITS: opacity is rounded to a code
-// here, by dithering or as render.emulate says. OPACITY_ONLY: opacity alone, for a leaf of a tree of
-// fixed-point nodes. EMULATED: OVER of opacity is computed here, too, on codes.
+// here, by dithering. OPACITY_ONLY: opacity alone, for a leaf of a tree of fixed-point nodes.
 #include "slicing/segment.glsl"
 #ifdef BITS
 #include "slicing/slab_codes.glsl"
 flat in uvec2 ranks;
 uniform int image_rows;
 #endif
-#ifdef EMULATED
-#include "compositing/programmable_blending.glsl"
-#else
 layout(location = 0) out vec4 associated;
-#endif
 #ifdef OPACITY_ONLY
 uniform DEPTH depth_scale;  // samples of the ray over samples of the leaf (docs/numerics.md, section 3)
 #endif
@@ -38,9 +30,7 @@ void main() {
     CodedSlab coded = CodedSlab(pixel, uint(slab), ranks);
     uint alpha = alpha_code(coded, opacity);
 #endif
-#ifdef EMULATED
-    composite_opacity(alpha);
-#elif defined(BITS)
+#ifdef BITS
     vec3 color = segment.color;
 #ifdef DITHER_COLOR
     color = vec3(color_codes(coded, color)) / float(LARGEST_CODE);
@@ -50,7 +40,7 @@ void main() {
 #else
     associated = vec4(segment.color * opacity, opacity);
 #endif
-#if defined(OPACITY_ONLY) && !defined(EMULATED)
+#ifdef OPACITY_ONLY
     associated.r = associated.a;
 #endif
 }

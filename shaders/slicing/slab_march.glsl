@@ -12,8 +12,8 @@ uniform float opaque_depth;
 // Adds the part of a ray between the depths `whole` to what the ray has passed. It lies in slabs
 // slab .. slab + slabs - 1.
 void march_slabs(Ray ray, REAL2 whole, float slab, float slabs, inout RaySum sum) {
-    float first = max(slab, floor(float(whole.x / slab_thickness)) - 1.0);
-    float end = min(slab + slabs, ceil(float(whole.y / slab_thickness)) + 1.0);
+    vec2 range = slabs_of(whole, slab, slabs);
+    float first = range.x, end = range.y;
     // These are sums of thousands of small terms. With PRECISE_RAYS they are double.
     REAL3 color = REAL3(sum.color);
     REAL depth = REAL(sum.depth);

@@ -3,20 +3,17 @@
 
 #include <glad/gl.h>
 #include <array>
-#include <cmath>
 #include <span>
 
 #include "base/client.h"
 #include "base/enum_words.h"
-#include "compositing/codes.h"
 #include "executors/fixed_tree.h"
 #include "gl/api.h"
 
 namespace lamina {
 namespace {
 
-constexpr int child_unit = 6, swizzle_unit = 7;
-constexpr int swizzle_width = 256;  // entries in a row, as shaders/slicing/swizzle.frag reads them
+constexpr int swizzle_width = 256;  // entries in a row, as shaders/slicing/swizzle.glsl reads them
 
 // Returns one of four formats: for float32, float16, codes of more than 8 bits, codes of up to 8.
 gl::TextureFormat format_for(const CompositingPlan& plan,
@@ -67,14 +64,9 @@ void set_compositing(gl::Defines& defines, const CompositingPlan& plan) {
     defines.set("ALPHA_ROUNDING", static_cast<int>(plan.emulation->alpha));
     if (plan.emulation->over == OverRounding::fused) defines.set("OVER_FUSED", 1);
     if (plan.order == Order::front_to_back) defines.set("FRONT_TO_BACK", 1);
-    if (plan.blending == Blending::fetch) defines.set("FRAMEBUFFER_FETCH", 1);
 }
 
-CompositingState::CompositingState(const CompositingPlan& plan, bool opacity_only,
-                                   const gl::Framebuffer& target)
-    : native_(plan.blending == Blending::native) {
-    if (plan.blending == Blending::barrier) target.color().bind(target_unit);
-    if (!native_) return;
+CompositingState::CompositingState(const CompositingPlan& plan, bool opacity_only) {
     gl::api().Enable(GL_BLEND);
     if (plan.order == Order::back_to_front) {
         gl::api().BlendFunc(GL_ONE, opacity_only ? GL_ONE_MINUS_SRC_COLOR : GL_ONE_MINUS_SRC_ALPHA);
@@ -84,70 +76,27 @@ CompositingState::CompositingState(const CompositingPlan& plan, bool opacity_onl
 }
 
 CompositingState::~CompositingState() {
-    if (native_) gl::api().Disable(GL_BLEND);
+    gl::api().Disable(GL_BLEND);
 }
 
-void decode(Image& image, const CompositingPlan& plan) {
-    const double largest = largest_code(plan.code_bits());
-    const double stored = plan.code_bits() > 8 ? 65535 : 255;
-    for (float& value : image.rgba)
-        value = static_cast<float>(std::round(static_cast<double>(value) * stored) / largest);
-}
-
-void finish_layer(const CompositingPlan& plan) {
-    if (plan.blending == Blending::barrier) gl::api().TextureBarrier();
-}
-
-gl::Defines swizzle_defines(const CompositingPlan& plan) {
-    gl::Defines defines;
-    set_compositing(defines, plan);
-    if (!plan.emulation) defines.set("ALPHA_ROUNDING", static_cast<int>(AlphaRounding::nearest));
-    return defines;
-}
-
-gl::Defines colorize_defines(const CompositingPlan& plan) {
-    gl::Defines defines;
-    if (plan.emulation) set_compositing(defines, plan);
-    return defines;
-}
-
-GlFixedTree::GlFixedTree(const CompositingPlan& plan, const TreeShape& shape,
-                         const glm::vec3& single_color, int width, int height)
-    : plan_(plan),
-      shape_(shape),
-      swizzle_("gl/full_screen.vert", "slicing/swizzle.frag", swizzle_defines(plan)),
-      colorize_("gl/full_screen.vert", "slicing/colorize.frag", colorize_defines(plan)) {
-    for (int level = 0; level < shape_.levels(); ++level) {
-        buffers_.emplace_back(gl::Texture::make_2d(opacity_format(plan), width, height));
-    }
+GlTree::GlTree(const CompositingPlan& plan, const TreeShape& shape) : plan_(plan), shape_(shape) {
     for (const auto& [sizes, swizzle] : make_swizzles(shape_, plan.code_bits()))
         swizzles_.emplace(sizes, upload_swizzle(swizzle));
-    swizzle_.set("child", child_unit);
-    swizzle_.set("swizzle", swizzle_unit);
-    if (plan_.blending == Blending::barrier) swizzle_.set("target", target_unit);
-    if (plan_.emulation) {
-        swizzle_.set("image_rows", height);
-        swizzle_.set("seed", static_cast<int>(plan_.emulation->seed));
-    }
-    colorize_.set("root", child_unit);
-    colorize_.set("single_color", single_color);
 }
 
-void GlFixedTree::draw(TreeLeaves& leaves, gl::Framebuffer& target, Progress* progress) {
+void GlTree::bind_swizzle(const SampleSpan& child, const SampleSpan& node) const {
+    swizzles_.at({child.count, node.count}).bind(swizzle_unit);
+}
+
+void GlTree::evaluate(Progress* progress) {
     inserted_nodes_ = 0;
-    evaluate(0, shape_.root(), leaves, progress);
-    target.bind();
-    buffers_[0].color().bind(child_unit);
-    gl::draw_full_screen(colorize_, no_attributes_);
+    evaluate(0, shape_.root(), progress);
 }
 
-void GlFixedTree::evaluate(int level, const SampleSpan& node, TreeLeaves& leaves,
-                           Progress* progress) {
-    gl::Framebuffer& buffer = buffers_[static_cast<std::size_t>(level)];
-    buffer.clear(glm::vec4(0));
+void GlTree::evaluate(int level, const SampleSpan& node, Progress* progress) {
+    clear(level);
     if (shape_.is_leaf(level, node)) {
-        buffer.bind();
-        leaves.draw(node, buffer, static_cast<double>(shape_.samples()) / node.count);
+        draw_leaf(level, node, static_cast<double>(shape_.samples()) / node.count);
         if (progress != nullptr) {
             gl::api().Finish();
             progress->advance();
@@ -160,19 +109,47 @@ void GlFixedTree::evaluate(int level, const SampleSpan& node, TreeLeaves& leaves
         const bool back_to_front = plan_.order == Order::back_to_front;
         const SampleSpan child = child_span(node, back_to_front ? children - 1 - i : i, children);
         if (child.count == 0) continue;
-        evaluate(level + 1, child, leaves, progress);
+        evaluate(level + 1, child, progress);
         put_into_parent(level, child, node);
+        ++inserted_nodes_;
     }
 }
 
+gl::Defines swizzle_defines(const CompositingPlan& plan) {
+    return gl::Defines().set("BITS", plan.code_bits());
+}
+
+GlFixedTree::GlFixedTree(const CompositingPlan& plan, const TreeShape& shape,
+                         const glm::vec3& single_color, int width, int height)
+    : GlTree(plan, shape),
+      swizzle_("gl/full_screen.vert", "slicing/swizzle.frag", swizzle_defines(plan)),
+      colorize_("gl/full_screen.vert", "slicing/colorize.frag") {
+    for (int level = 0; level < shape_.levels(); ++level)
+        images_.emplace_back(gl::Texture::make_2d(opacity_format(plan), width, height));
+    swizzle_.set("child", child_unit);
+    swizzle_.set("swizzle", swizzle_unit);
+    colorize_.set("root", child_unit);
+    colorize_.set("single_color", single_color);
+}
+
+void GlFixedTree::draw(TreeLeaves& leaves, gl::Framebuffer& target, Progress* progress) {
+    leaves_ = &leaves;
+    evaluate(progress);
+    target.bind();
+    image(0).color().bind(child_unit);
+    gl::draw_full_screen(colorize_, no_attributes_);
+}
+
+void GlFixedTree::draw_leaf(int level, const SampleSpan& leaf, double depth_scale) {
+    image(level).bind();
+    leaves_->draw(leaf, depth_scale);
+}
+
 void GlFixedTree::put_into_parent(int level, const SampleSpan& child, const SampleSpan& node) {
-    const gl::Framebuffer& buffer = buffers_[static_cast<std::size_t>(level)];
-    buffer.bind();
-    const CompositingState state(plan_, true, buffer);
-    finish_layer(plan_);
-    buffers_[static_cast<std::size_t>(level) + 1].color().bind(child_unit);
-    swizzles_.at({child.count, node.count}).bind(swizzle_unit);
-    if (plan_.emulation) swizzle_.set("stage", shape_.samples() + inserted_nodes_++);
+    image(level).bind();
+    const CompositingState state(plan_, true);
+    image(level + 1).color().bind(child_unit);
+    bind_swizzle(child, node);
     gl::draw_full_screen(swizzle_, no_attributes_);
 }
 

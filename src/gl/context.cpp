@@ -93,7 +93,6 @@ void Context::initialise(LoadFunction load, const char* interface_name, bool sof
     capabilities_.max_texture_size = largest_render_target();
     capabilities_.max_storage_bytes = integer(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
     capabilities_.subpixel_bits = integer(GL_SUBPIXEL_BITS);
-    capabilities_.framebuffer_fetch = functions_->EXT_shader_framebuffer_fetch != 0;
     capabilities_.max_3d_texture_size = integer(GL_MAX_3D_TEXTURE_SIZE);
     capabilities_.max_buffer_texels = integer(GL_MAX_TEXTURE_BUFFER_SIZE);
 

@@ -15,9 +15,8 @@ struct Capabilities {
     int max_texture_size = 0;     // GL_MAX_TEXTURE_SIZE, also of the render target
     int max_3d_texture_size = 0;  // GL_MAX_3D_TEXTURE_SIZE
     std::int64_t max_storage_bytes = std::int64_t{1} << 27;  // GL_MAX_SHADER_STORAGE_BLOCK_SIZE
-    int max_buffer_texels = 0;       // GL_MAX_TEXTURE_BUFFER_SIZE; 0: no compute shaders
-    int subpixel_bits = 8;           // GL_SUBPIXEL_BITS: corners are rounded to a grid this fine
-    bool framebuffer_fetch = false;  // GL_EXT_shader_framebuffer_fetch
+    int max_buffer_texels = 0;  // GL_MAX_TEXTURE_BUFFER_SIZE; 0: no compute shaders
+    int subpixel_bits = 8;      // GL_SUBPIXEL_BITS: corners are rounded to a grid this fine
     // Largest texture that is made. The limits that OpenGL reports are not reliable
     // (docs/numerics.md, section 2).
     std::uint64_t max_texture_bytes = std::uint64_t{1} << 30;

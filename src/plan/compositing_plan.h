@@ -16,15 +16,12 @@ void check_limits(const Scene& scene, const Capabilities& capabilities);
 // The part of the context that computes OVER on the target's pixels.
 enum class Blending {
     native,     // the blending unit
-    fetch,      // the fragment program, which reads its pixel (GL_EXT_shader_framebuffer_fetch)
-    barrier,    // the fragment program, which reads the target as a texture, with a barrier between
-                // layers
     registers,  // the compute program, which holds the pixel
     tiles,      // the cpu engine, which holds the pixel
 };
 
-// Returns how a context composites what its blending unit cannot.
-Blending programmable_blending(const Capabilities& capabilities);
+// Returns how a context composites codes, which its blending unit cannot.
+Blending code_blending(const Capabilities& capabilities);
 const char* name_of(Blending blending);
 
 // Returns the dithering for `slabs` slabs, with its period chosen if that is automatic.

@@ -43,8 +43,7 @@ std::string work_and_left_out(const Plan& plan) {
 
 std::string text_of_codes(const CompositingPlan& plan) {
     const char* const unit =
-        word_of(plan.blending, {"the blending unit", "framebuffer fetch", "texture barriers",
-                                "registers", "the cpu engine"});
+        word_of(plan.blending, {"the blending unit", "registers", "the cpu engine"});
     return fmt::format("{} bits, alpha {}, over {}, by {}", plan.emulation->bits,
                        name_of(plan.emulation->alpha), name_of(plan.emulation->over), unit);
 }

@@ -306,14 +306,12 @@ void check_limits(const Scene& scene, const Capabilities& capabilities) {
     }
 }
 
-Blending programmable_blending(const Capabilities& capabilities) {
-    if (capabilities.cpu) return Blending::tiles;
-    return capabilities.framebuffer_fetch ? Blending::fetch : Blending::barrier;
+Blending code_blending(const Capabilities& capabilities) {
+    return capabilities.cpu ? Blending::tiles : Blending::registers;
 }
 
 const char* name_of(Blending blending) {
-    return word_of(blending,
-                   {"blending_unit", "framebuffer_fetch", "texture_barrier", "registers", "tiles"});
+    return word_of(blending, {"blending_unit", "registers", "tiles"});
 }
 
 Dither dither_of(const DitherSettings& settings, int slabs) {

@@ -163,8 +163,7 @@ struct ProjectPlanner {
         plan.visibility = choose_visibility();
         plan.dither = choose_dither();
         if (scene.target == Target::emulated) plan.emulation = scene.emulate;
-        if (plan.emulation || plan.dither == ProjectDither::after_blend)
-            plan.blending = programmable_blending(capabilities);
+        if (plan.emulation || plan.dither == ProjectDither::after_blend) choose_blending();
         if (settings.tree) choose_tree();
         choose_source();
         // With a tree, transparent cell fragments are never drawn, even with --no-omit: leaves have
@@ -256,6 +255,35 @@ struct ProjectPlanner {
         return ProjectDither::none;
     }
 
+    // Returns the bytes of a picture in a storage buffer, whose rows are padded (GlPixels).
+    std::int64_t picture_bytes(std::int64_t pixel_bytes) const {
+        constexpr std::int64_t alignment = 256;
+        return (pixel_bytes * scene.width + alignment - 1) / alignment * alignment * scene.height;
+    }
+
+    // Compute shaders of OpenGL composite codes; they do not rasterise triangles.
+    void choose_blending() {
+        plan.blending = code_blending(capabilities);
+        if (plan.blending != Blending::registers) return;
+        const char* const key = plan.emulation ? "render.target" : "render.project.dither";
+        const char* const value = plan.emulation ? name_of(plan.target) : name_of(plan.dither);
+        if (plan.geometry == ProjectGeometry::triangles) {
+            fail(
+                "{}: {}: found \"{}\" with triangles (render.project.geometry, coloring or "
+                "interpolation), whose fragments OpenGL's blending unit alone composites, expected "
+                "silhouettes, or --context cpu",
+                scene.file.string(), key, value);
+        }
+        const std::int64_t bytes = picture_bytes(plan.code_bits() > 8 ? 8 : 4);
+        if (bytes > capabilities.max_storage_bytes) {
+            fail(
+                "{}: image: found {} x {} pixels, which take {} bytes as codes, expected at most "
+                "{}: {}",
+                scene.file.string(), scene.width, scene.height, bytes,
+                capabilities.max_storage_bytes, capabilities.renderer);
+        }
+    }
+
     void choose_tree() {
         check_project_tree(scene, facts.single_color);
         plan.tree = given_tree(settings.tree)->factors;
@@ -293,10 +321,9 @@ struct ProjectPlanner {
     // Open faces that cross the eye's plane would be listed for all pixels, so the rasteriser draws
     // meshes around the eye.
     bool choose_walk() const {
-        constexpr double shortest = 0x1p-22;  // of the diagonal: 2^9 steps of places
-        constexpr std::int64_t pixel_bytes = 16;
+        constexpr double shortest = 0x1p-22;      // of the diagonal: 2^9 steps of places
         constexpr std::size_t most_points = 200;  // loops of software hold few searches in more
-        return pixel_bytes * scene.width * scene.height <= capabilities.max_storage_bytes &&
+        return picture_bytes(16) <= capabilities.max_storage_bytes &&
                std::max(facts.tets, facts.points) <= capabilities.max_buffer_texels &&
                !(capabilities.software && scene.lighting) && plan.target == Target::float32 &&
                plan.geometry == ProjectGeometry::silhouette && plan.tree.empty() &&

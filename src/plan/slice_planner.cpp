@@ -105,7 +105,7 @@ struct SlicePlanner {
         slice.rounding_bound =
             slice.error_bound ? slice.error_bound : rounding_bound(question, slice.tree);
         const bool marched = slice.has_tree(NodeArithmetic::shader);
-        if (slice.emulation) slice.blending = choose_blending(slice.tree.has_value());
+        if (slice.emulation) slice.blending = code_blending(capabilities);
         if (marched)
             slice.marched_slabs = most_marched_slabs(scene, facts, capabilities, slice.slabs);
         if (slice.blending == Blending::registers)
@@ -304,12 +304,6 @@ struct SlicePlanner {
         if (!choice.tree) return choice;
         if (is_fixed_point(question.target)) choice.tree->largest_color = std::max(max_color, 1.0);
         return choice;
-    }
-
-    // Returns what computes OVER on codes: in OpenGL a compute program, if there is no tree.
-    Blending choose_blending(bool tree) const {
-        const bool computed = !capabilities.cpu && !tree;
-        return computed ? Blending::registers : programmable_blending(capabilities);
     }
 
     // `of_codes`: the dithering of a fixed-point target, if the scene asks for any.

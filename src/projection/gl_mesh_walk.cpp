@@ -10,7 +10,7 @@
 //   points       place from the mesh's center, in steps of place_steps_, and normalised scalar
 //   gradients    if lit: StoredGradients
 //   open faces   corners, counter-clockwise seen from outside, and the tet
-//   tiles        EntryTiles::Tile
+//   tiles        TileLists::Tile
 #include "projection/gl_mesh_walk.h"
 
 #include <glad/gl.h>
@@ -49,10 +49,6 @@ int rounds_of(const ProjectPlan& plan, int intervals) {
 // Largest number of tiles in one dispatch: 64 MiB of rays between two dispatches.
 constexpr std::size_t most_tiles = 16384;
 
-std::size_t tile_count(int pixels) {
-    return (static_cast<std::size_t>(pixels) + EntryTiles::size - 1) / EntryTiles::size;
-}
-
 constexpr unsigned mesh_unit = 4;  // and those after it; behind those of GlProjectTables
 
 using Texel = std::array<std::uint32_t, 4>;
@@ -88,17 +84,17 @@ gl::Defines walk_defines(const ProjectPlan& plan, const GlProjectTables& tables,
     return defines;
 }
 
-PixelArea EntryTiles::area_of(const Triangle& face, const WindowView& window) const {
+PixelArea EntryTiles::area_of(const Triangle& face, const WindowView& window) {
     constexpr double margin = 1;      // pixel: more than rounding and ray_perturbation()
     constexpr double edge_on = 1e-7;  // sine of an angle: more than these
-    const PixelArea everywhere{0, columns_ - 1, 0, rows_ - 1}, nowhere{0, -1, 0, -1};
+    const View& view = window.view();
+    const PixelArea everywhere{0, view.width - 1, 0, view.height - 1}, nowhere{0, -1, 0, -1};
     const glm::dvec3 normal = glm::cross(face[1] - face[0], face[2] - face[0]);  // outwards
     std::array<glm::dvec3, 3> seen;
     for (std::size_t i = 0; i < 3; ++i) seen[i] = window.see(face[i]);
     const auto in_front = [](const glm::dvec3& p) { return p.z > 0; };
     const bool front = std::ranges::all_of(seen, in_front);
     if (window.perspective() && !front && std::ranges::any_of(seen, in_front)) return everywhere;
-    const View& view = window.view();
     const glm::dvec3 to_face = window.perspective() ? face[0] - view.eye : view.forward;
     const double sign = window.perspective() && !front ? -1 : 1;
     if (sign * glm::dot(normal, to_face) > edge_on * glm::length(normal) * glm::length(to_face))
@@ -109,68 +105,41 @@ PixelArea EntryTiles::area_of(const Triangle& face, const WindowView& window) co
         least = glm::min(least, place);
         most = glm::max(most, place);
     }
-    const auto tile = [](double pixel, std::int32_t count) {
+    const auto pixel = [](double place, std::int32_t count) {
         return static_cast<std::int32_t>(
-            std::clamp(std::floor(pixel / size), -1.0, static_cast<double>(count)));
+            std::clamp(std::floor(place), -1.0, static_cast<double>(count)));
     };
-    return {std::max(tile(least.x - margin, columns_), 0),
-            std::min(tile(most.x + margin, columns_), columns_ - 1),
-            std::max(tile(view.height - most.y - margin, rows_), 0),
-            std::min(tile(view.height - least.y + margin, rows_), rows_ - 1)};
+    return common_pixels({pixel(least.x - margin, view.width), pixel(most.x + margin, view.width),
+                          pixel(view.height - most.y - margin, view.height),
+                          pixel(view.height - least.y + margin, view.height)},
+                         everywhere);
 }
 
 void EntryTiles::list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view) {
-    columns_ = static_cast<std::int32_t>(tile_count(view.width));
-    rows_ = static_cast<std::int32_t>(tile_count(view.height));
     const WindowView window(view);
     areas_.resize(open_faces.size());
     parallel_for(std::ssize(open_faces), 1024, [&](std::int64_t i) {
         const auto face = static_cast<std::size_t>(i);
         areas_[face] = area_of(mesh.corners(open_faces[face]), window);
     });
-    const auto for_each_tile = [&](const auto& visit) {
-        for (std::size_t face = 0; face < areas_.size(); ++face) {
-            const PixelArea& area = areas_[face];
-            for (std::int32_t row = area.first_row; row <= area.last_row; ++row)
-                for (std::int32_t column = area.first_column; column <= area.last_column; ++column)
-                    visit(static_cast<std::size_t>(row * columns_ + column), face);
-        }
-    };
-    ends_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
-    for_each_tile([&](std::size_t tile, std::size_t) { ++ends_[tile]; });
-    tiles.clear();
-    std::uint32_t listed = 0;
-    for (std::size_t tile = 0; tile < ends_.size(); ++tile) {
-        const std::uint32_t count = std::exchange(ends_[tile], listed);
-        if (count == 0) continue;
-        const auto place = static_cast<std::uint32_t>(tile);
-        const auto across = static_cast<std::uint32_t>(columns_);
-        tiles.push_back({place % across * size, place / across * size, listed, listed + count});
-        listed += count;
-    }
-    faces.resize(listed);
-    for_each_tile([&](std::size_t tile, std::size_t face) {
-        faces[ends_[tile]++] = static_cast<std::uint32_t>(face);
-    });
+    TileLists::list(areas_, view.width, view.height,
+                    [](std::size_t face, int, int) { return static_cast<std::uint32_t>(face); });
 }
 
 GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_function,
                        const ProjectPlan& plan, int width, int height,
                        std::shared_ptr<VisibilityOrder> order)
     : ProjectRenderer(mesh, transfer_function, plan, std::move(order)),
-      width_(width),
       height_(height),
       center_(0.5 * mesh.mesh.bounds().min + 0.5 * mesh.mesh.bounds().max),
       place_steps_(steps_to(mesh.mesh.bounds().max - center_)),
       tables_(transfer_function_, plan_),
-      program_("projection/walk.comp", walk_defines(plan_, tables_, mesh.mesh.has_copies())) {
+      program_("projection/walk.comp", walk_defines(plan_, tables_, mesh.mesh.has_copies())),
+      picture_(PixelPacking::floats, width, height) {
     if (plan_.lighting)
         gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
-    const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    pixels_ = gl::Buffer(pixels * 4 * sizeof(float));
-    pixels_.clear();
     constexpr std::size_t ray_bytes = 64, pixels_of_tile = EntryTiles::size * EntryTiles::size;
-    rays_ = gl::Buffer(std::min(most_tiles, tile_count(width) * tile_count(height)) *
+    rays_ = gl::Buffer(std::min(most_tiles, TileLists::count(width) * TileLists::count(height)) *
                        pixels_of_tile * ray_bytes);
     unfinished_ = gl::Buffer(sizeof(std::uint32_t));
     const Stage uploading("upload mesh");
@@ -278,9 +247,9 @@ void GlMeshWalk::upload_faces() {
 void GlMeshWalk::upload_tiles() {
     if (entries_.tiles.empty()) return;
     reserve(tiles_, 4, entries_.tiles.size());
-    reserve(listed_faces_, 1, entries_.faces.size());
+    reserve(listed_faces_, 1, entries_.entries.size());
     tiles_.write(std::span(entries_.tiles));
-    listed_faces_.write(std::span(entries_.faces));
+    listed_faces_.write(std::span(entries_.entries));
 }
 
 void GlMeshWalk::set_view(const View& view) {
@@ -314,7 +283,8 @@ void GlMeshWalk::set_view(const View& view) {
         buffer->bind(unit);
         program_.set(name, static_cast<int>(unit++));
     }
-    pixels_.bind_storage(0);
+    program_.set("picture_row", picture_.row_words() / words_of(PixelPacking::floats));
+    picture_.bind(0, 0, height_);
     rays_.bind_storage(1);
     unfinished_.bind_storage(2);
 }
@@ -326,7 +296,7 @@ void GlMeshWalk::draw(const View& view, Progress* progress) {
     list_ms_ = listing.end();
     Stage drawing("draw");
     timeline_.begin("draw");
-    pixels_.clear();
+    picture_.clear();
     if (!entries_.tiles.empty()) set_view(view);
     for (std::size_t first = 0; first < entries_.tiles.size(); first += most_tiles) {
         const std::size_t count = std::min(most_tiles, entries_.tiles.size() - first);
@@ -350,8 +320,7 @@ void GlMeshWalk::draw(const View& view, Progress* progress) {
 }
 
 void GlMeshWalk::read(Image& image) const {
-    image.resize(width_, height_);
-    pixels_.read(std::span(image.rgba));
+    picture_.read(image, 1);
 }
 
 std::map<std::string, double> GlMeshWalk::stages_ms() const {

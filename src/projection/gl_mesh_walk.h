@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "executors/gl_pixels.h"
 #include "gl/api.h"
 #include "gl/program.h"
 #include "gl/texture.h"
@@ -10,32 +11,22 @@
 #include "mesh/face_tree.h"
 #include "projection/gl_project_renderer.h"
 #include "projection/project_renderer.h"
+#include "projection/tile_lists.h"
 #include "scene/camera.h"
 
 namespace lamina {
 
 // Lists, for each tile of a picture that a mesh covers, the open faces by which rays may enter it.
-struct EntryTiles {
-    static constexpr int size = 8;  // pixels along a side
-
-    struct Tile {
-        std::uint32_t column, row;  // its upper left pixel; row 0 is the top
-        std::uint32_t first, end;   // range of `faces`
-    };
-    std::vector<Tile> tiles;
-    std::vector<std::uint32_t> faces;  // indices into `open_faces`
-
-    // Lists the faces for a view.
+struct EntryTiles : TileLists {
+    // Lists the faces, by index into `open_faces`, for a view.
     void list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view);
 
   private:
-    // Bounds, in tiles, those whose rays may enter by a face: those around its corners, or all if
-    // it crosses the plane of the eye. Faces by which rays surely leave get none.
-    PixelArea area_of(const Triangle& face, const WindowView& window) const;
+    // Bounds the pixels whose rays may enter by a face: those around its corners, or all if it
+    // crosses the plane of the eye. Faces by which rays surely leave get none.
+    static PixelArea area_of(const Triangle& face, const WindowView& window);
 
-    std::int32_t columns_ = 0, rows_ = 0;  // of tiles
-    std::vector<PixelArea> areas_;         // of each open face
-    std::vector<std::uint32_t> ends_;      // of each tile's list
+    std::vector<PixelArea> areas_;  // of each open face
 };
 
 // Returns the definitions of projection/walk.comp. `copies`: TetMesh::has_copies().
@@ -66,18 +57,19 @@ class GlMeshWalk : public ProjectRenderer {
     void upload_tiles();
     void set_view(const View& view);
 
-    int width_, height_;
+    int height_;
     glm::dvec3 center_;       // of the mesh's box
     glm::dvec3 place_steps_;  // of points' places along the axes, in world units
     GlProjectTables tables_;
     gl::Program program_;
+    GlPixels picture_;
     std::vector<TetFace> faces_;  // by which rays enter
     bool around_hidden_ = false;  // rays leave the mesh at tets that show nothing
     EntryTiles entries_;
     StoredGradients gradients_;  // empty if nothing is lit
     gl::TexelBuffer tets_, neighbors_, corners_, points_, gradient_texels_, open_faces_;
     gl::TexelBuffer tiles_, listed_faces_;
-    gl::Buffer pixels_, rays_, unfinished_;
+    gl::Buffer rays_, unfinished_;
     gl::Timeline timeline_;
     double list_ms_ = 0;
 };

@@ -73,9 +73,7 @@ std::vector<Code> to_codes(const std::vector<float>& texels) {
 template <typename DrawLeaf>
 struct TetLeaves : TreeLeaves {
     explicit TetLeaves(DrawLeaf& function) : draw_leaf(function) {}
-    void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) override {
-        draw_leaf(span, target, depth_scale);
-    }
+    void draw(const SampleSpan& span, double depth_scale) override { draw_leaf(span, depth_scale); }
     DrawLeaf& draw_leaf;
 };
 
@@ -113,8 +111,6 @@ gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
     if (!plan.in_codes()) return defines;
     if (plan.dither == ProjectDither::after_blend) {
         defines.set("BITS", plan.code_bits());
-        defines.set("AFTER_BLEND", 1);
-        if (plan.blending == Blending::fetch) defines.set("FRAMEBUFFER_FETCH", 1);
         return defines;
     }
     set_compositing(defines, plan);
@@ -127,6 +123,26 @@ void set_lit_view(const Lighting& lighting, const StoredGradients& gradients, do
     set_lights(lighting, world_axes, program);
     set_light_cuts(lighting, program);
     program.set("light_limits", glm::vec2(gradients.smallest_square(lighting), most_bend));
+}
+
+void set_projection(const ProjectPlan& plan, const StoredGradients& gradients, const View& view,
+                    gl::Program& program) {
+    const glm::vec2 size(view.width, view.height);
+    program.set("image_middle", 0.5f * size);
+    program.set("pixel_size", static_cast<float>(seeing_in_units(view, plan.unit).pixel));
+    if (plan.geometry == ProjectGeometry::silhouette) {
+        program.set("ray_perturbation", ray_perturbation(view));
+        // In perspective views depth is stored as -1 / z, which is linear in the window.
+        const double near =
+            view.projection == Projection::perspective ? -1 / plan.near_depth : plan.near_depth;
+        program.set("near_depth", static_cast<float>(near));
+    }
+    if (plan.in_codes()) program.set("seed", static_cast<int>(plan.seed));
+    if (!plan.lighting) return;
+    set_lit_view(*plan.lighting, gradients, plan.most_bend, program);
+    const auto axis = [](const glm::dvec3& v) { return glm::vec4(glm::vec3(v), 0); };
+    const std::array axes{axis(view.right), axis(view.up), axis(view.forward)};
+    program.set("view_axes", std::span<const glm::vec4>(axes));
 }
 
 GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, const ProjectPlan& plan)
@@ -260,10 +276,8 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
     make_stream(std::move(stream));
     if (plan_.tree.empty()) return;
     // The tree's samples are the mesh's cell fragments, whose number does not depend on the view.
-    CompositingPlan nodes = plan_;
-    if (!plan_.emulation) nodes.blending = Blending::native;  // only leaves are dithered
     const TreeShape shape(plan_.tree, static_cast<int>(visible_->count()));
-    tree_.emplace(nodes, shape, tables_->single_color(), target_.width(), target_.height());
+    tree_.emplace(plan_, shape, tables_->single_color(), target_.width(), target_.height());
 }
 
 void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
@@ -277,7 +291,6 @@ void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {
         stream_ = fan ? std::make_shared<GlTetStream>(size, fan_attributes, cell_fragments)
                       : std::make_shared<GlTetStream>(size, silhouette_attributes, cell_fragments);
     }
-    stream_->set_barriers(plan_.blending == Blending::barrier);
 }
 
 int GlProjectRenderer::step_count() const {
@@ -312,27 +325,9 @@ void GlProjectRenderer::draw(const View& view, Progress* progress) {
 
 void GlProjectRenderer::set_view(gl::Program& program, const View& view) const {
     tables_->bind(program);
-    const glm::vec2 size(view.width, view.height);
-    program.set("image_size", size);
-    program.set("image_middle", 0.5f * size);
-    program.set("pixel_size", static_cast<float>(seeing_in_units(view, plan_.unit).pixel));
-    if (!is_fan()) {
-        program.set("ray_perturbation", ray_perturbation(view));
-        // In perspective views depth is stored as -1 / z, which is linear in the window.
-        const double near =
-            view.projection == Projection::perspective ? -1 / plan_.near_depth : plan_.near_depth;
-        program.set("near_depth", static_cast<float>(near));
-    }
-    if (plan_.in_codes()) {
-        program.set("image_rows", view.height);
-        program.set("seed", static_cast<int>(plan_.seed));
-    }
-    if (plan_.blending == Blending::barrier) program.set("target", target_unit);
-    if (!plan_.lighting) return;
-    set_lit_view(*plan_.lighting, gradients_, plan_.most_bend, program);
-    const auto axis = [](const glm::dvec3& v) { return glm::vec4(glm::vec3(v), 0); };
-    const std::array axes{axis(view.right), axis(view.up), axis(view.forward)};
-    program.set("view_axes", std::span<const glm::vec4>(axes));
+    set_projection(plan_, gradients_, view, program);
+    program.set("image_size", glm::vec2(view.width, view.height));
+    if (plan_.in_codes()) program.set("image_rows", view.height);
 }
 
 void GlProjectRenderer::draw_cell_fragments(const DrawOrder<CellFragment>& cell_fragments,
@@ -357,20 +352,19 @@ void GlProjectRenderer::draw_cell_fragments(const DrawOrder<CellFragment>& cell_
     stream_->start_frame();
     if (tree_) {
         // The programs draw opacity alone (OPACITY_ONLY).
-        const auto draw_leaf = [&](const SampleSpan& span, const gl::Framebuffer& target,
-                                   double depth_scale) {
+        const auto draw_leaf = [&](const SampleSpan& span, double depth_scale) {
             for (gl::Program* program : programs)
                 program->set("depth_scale", static_cast<float>(depth_scale));
-            const CompositingState state(plan_, true, target);
+            const CompositingState state(plan_, true);
             tets_drawn_ += stream_->draw(
                 geometry, cell_fragments_of_leaf(cell_fragments, span, visible_->count()),
-                target.height(), programs, [] {});
+                target_.height(), programs, [] {});
         };
         TetLeaves leaves(draw_leaf);
         tree_->draw(leaves, target_, progress);
         return;
     }
-    const CompositingState state(plan_, false, target_);
+    const CompositingState state(plan_, false);
     tets_drawn_ = stream_->draw(geometry, cell_fragments, target_.height(), programs, [&] {
         if (progress != nullptr) progress->advance();
     });
@@ -378,7 +372,6 @@ void GlProjectRenderer::draw_cell_fragments(const DrawOrder<CellFragment>& cell_
 
 void GlProjectRenderer::read(Image& image) const {
     target_.read_back(image);
-    if (plan_.in_codes() && plan_.blending != Blending::native) decode(image, plan_);
 }
 
 std::map<std::string, double> GlProjectRenderer::stages_ms() const {

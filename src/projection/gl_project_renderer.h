@@ -13,12 +13,17 @@ namespace lamina {
 
 // Tells whether the plan needs a program for this kind; otherwise a later kind's program draws it.
 bool has_program(const ProjectPlan& plan, FragmentKind kind);
-// Returns the definitions of projection/tet.frag and its vertex shader, except for the tables.
+// Returns the definitions of projection/tet.frag and its vertex shader, or of codes.comp, except
+// for the tables.
 gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind);
 
 // Sets the uniforms of a lit program, except view_axes.
 void set_lit_view(const Lighting& lighting, const StoredGradients& gradients, double most_bend,
                   gl::Program& program);
+
+// Sets the uniforms of projection/silhouette.glsl or fan.glsl, of light and of random numbers.
+void set_projection(const ProjectPlan& plan, const StoredGradients& gradients, const View& view,
+                    gl::Program& program);
 
 // The transfer function in the form that the fragments of tets read
 // (shaders/projection/tet_color.glsl). The plan must outlive it.

@@ -77,11 +77,6 @@ bool GlTetStream::can_replace(const TetGeometry::Size& size, std::size_t cell_fr
     return size == size_ && batch_size_of(cell_fragments) == batch_size_;
 }
 
-void GlTetStream::set_barriers(bool barriers) {
-    barriers_ = barriers;
-    if (barriers) index_counts_.reserve(batch_size_);
-}
-
 std::size_t GlTetStream::batch_count(std::size_t cell_fragments) const {
     return (cell_fragments + batch_size_ - 1) / batch_size_;
 }
@@ -96,7 +91,7 @@ std::int64_t GlTetStream::draw(const TetGeometry& geometry,
         const DrawOrder<CellFragment> batch_order =
             cell_fragments.subrange(first, std::min(batch_size_, count - first));
         const std::span<const CellFragment> in_batch = batch_order.items;
-        const bool one_by_one = barriers_ || !batch_order.limited.empty();
+        const bool one_by_one = !batch_order.limited.empty();
         Batch& batch = batches_[next_batch_++ % batches_.size()];
         Stage waiting("wait for buffer");
         batch.drawn.wait();
@@ -203,7 +198,6 @@ void GlTetStream::submit_one_by_one(const DrawOrder<CellFragment>& cell_fragment
             set_scissor(limit, rows);
         }
         api.DrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, offset_of(index));
-        if (barriers_) api.TextureBarrier();
         index += static_cast<std::size_t>(count);
     }
     if (limit != nullptr) set_scissor(nullptr, rows);

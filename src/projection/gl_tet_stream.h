@@ -29,9 +29,6 @@ class GlTetStream {
     // Tells whether this stream can replace a new one with these arguments and equal attributes.
     bool can_replace(const TetGeometry::Size& size, std::size_t cell_fragments) const;
 
-    // Sets whether draw() puts a texture barrier after each cell fragment (Blending::barrier).
-    void set_barriers(bool barriers);
-
     using Programs = std::array<gl::Program*, fragment_kinds>;  // by FragmentKind; may repeat
     // Draws cell fragments in order with the bound state; the viewport is the picture. Ctrl-C ends
     // it between batches, and `batch_done` is called after each. Returns the number of tets drawn,
@@ -67,7 +64,6 @@ class GlTetStream {
                            const Programs& programs) const;
 
     TetGeometry::Size size_;
-    bool barriers_ = false;
     std::size_t batch_size_;
     std::array<Batch, 3> batches_;
     // The batch that is written next. It is not reset between draws, so that a draw of few tets
@@ -75,7 +71,7 @@ class GlTetStream {
     std::size_t next_batch_ = 0;
     std::vector<Chunk> chunks_;
     // Number of indices of each cell fragment of the batch; empty unless these are submitted one by
-    // one: with barriers between them, or if some are limited to some pixels.
+    // one, because some are limited to some pixels.
     std::vector<int> index_counts_;
     std::vector<int> counts_;  // number of indices of each chunk of one draw
     std::vector<const void*> offsets_;

@@ -5,6 +5,7 @@
 #include "projection/cpu_project_renderer.h"
 #include "projection/gl_mesh_walk.h"
 #include "projection/gl_project_renderer.h"
+#include "projection/gl_tet_codes.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -39,6 +40,9 @@ std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,
     }
     if (plan.walk)
         return std::make_unique<GlMeshWalk>(mesh, transfer_function, plan, width, height,
+                                            ready.order);
+    if (plan.blending == Blending::registers)
+        return std::make_unique<GlTetCodes>(mesh, transfer_function, plan, width, height,
                                             ready.order);
     return std::make_unique<GlProjectRenderer>(mesh, transfer_function, plan, capabilities, width,
                                                height, ready.order, ready.stream);

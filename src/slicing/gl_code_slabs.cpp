@@ -43,6 +43,9 @@ GlCodeSlabs::GlCodeSlabs(const GlSlabSource& source, const SlicePlan& plan,
                          capabilities.max_storage_bytes / (4 * std::int64_t{picture_.row_words()})),
             plan.batches == 1) {
     if (plan_.dither) ranks_ = upload_ranks(*plan_.dither);
+    if (!plan_.tree) return;
+    tree_.emplace(plan_, TreeShape(plan_.tree->factors, plan_.slabs), source_.single_color(), width,
+                  height);
 }
 
 gl::Defines GlCodeSlabs::wanted_defines() const {
@@ -61,17 +64,30 @@ void GlCodeSlabs::set_view(const View& view, const Slabs& slabs) {
 }
 
 void GlCodeSlabs::draw(Progress* progress) {
+    if (tree_) {
+        tree_->draw(*this, picture_, progress);
+    } else {
+        draw_slabs({0, plan_.slabs}, picture_, progress);
+    }
+}
+
+void GlCodeSlabs::draw(const SampleSpan& span, const GlPixels& opacity, double depth_scale) {
+    program_.set("depth_scale", depth_scale);
+    draw_slabs(span, opacity, nullptr);
+}
+
+void GlCodeSlabs::draw_slabs(const SampleSpan& span, const GlPixels& picture, Progress* progress) {
     source_.bind(program_);
     program_.set("seed", static_cast<int>(plan_.emulation->seed));
     if (plan_.dither) {
         program_.set("dither_ranks", ranks_unit);
         ranks_.bind(ranks_unit);
     }
-    program_.set("output_row", picture_.row_words());
-    const std::vector<GlMarch::Part>& parts = march_.parts_of({0, plan_.slabs});
+    program_.set("output_row", picture.row_words());
+    const std::vector<GlMarch::Part>& parts = march_.parts_of(span);
     draw_bands(height_, pace_, [&](const RowBand& band) {
-        picture_.bind(picture_binding, band.first_row, band.rows);
-        program_.set("output_begin", -band.first_row * picture_.row_words());
+        picture.bind(picture_binding, band.first_row, band.rows);
+        program_.set("output_begin", -band.first_row * picture.row_words());
         for (const GlMarch::Part& part : parts) march_.draw(part, band, program_);
         if (progress != nullptr) {
             gl::api().Finish();

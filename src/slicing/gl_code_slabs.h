@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/client.h"
+#include "executors/gl_code_tree.h"
 #include "executors/gl_pixels.h"
 #include "gl/texture.h"
 #include "plan/capabilities.h"
@@ -14,14 +15,15 @@ gl::Texture upload_ranks(const Dither& dither);
 inline constexpr int ranks_unit = GlSlabSource::first_free_unit;
 
 // Draws slabs for Target::emulated: a compute shader composites each ray's slabs on codes, in
-// registers. The picture is made in bands of rows.
-class GlCodeSlabs : public GlMarchedPicture {
+// registers: all of them, or those of a leaf of a tree. Pictures are made in bands of rows.
+class GlCodeSlabs : public GlMarchedPicture, private CodeLeaves {
   public:
     // `source` and `plan` must outlive the object.
     GlCodeSlabs(const GlSlabSource& source, const SlicePlan& plan, const Capabilities& capabilities,
                 int width, int height);
 
-    int step_count() const override { return height_; }  // rows
+    // Rows, or leaves of a tree.
+    int step_count() const override { return tree_ ? tree_->step_count() : height_; }
     void take_plan() override;
     void set_view(const View& view, const Slabs& slabs) override;
     void clear() override { picture_.clear(); }
@@ -30,6 +32,8 @@ class GlCodeSlabs : public GlMarchedPicture {
 
   private:
     gl::Defines wanted_defines() const;
+    void draw(const SampleSpan& span, const GlPixels& opacity, double depth_scale) override;
+    void draw_slabs(const SampleSpan& span, const GlPixels& picture, Progress* progress);
 
     const GlSlabSource& source_;
     const SlicePlan& plan_;
@@ -40,6 +44,7 @@ class GlCodeSlabs : public GlMarchedPicture {
     GlMarch march_;
     GlPixels picture_;
     RowPace pace_;
+    std::optional<GlCodeTree> tree_;  // if the plan has one
 };
 
 }  // namespace lamina

@@ -4,8 +4,8 @@
 //   2. Draw the polygons. For each pixel slab.frag computes the colour and opacity of its segment.
 //   3. Blend the fragments onto the target in the plan's order.
 // With a tree of fixed-point nodes, GlFixedTree composites the pictures of the leaves. Trees in
-// float, the default, and Target::emulated are drawn by compute shaders instead (gl_shader_tree.h,
-// gl_code_slabs.h).
+// float, the default, and Target::emulated, with a tree or without, are drawn by compute shaders
+// instead (gl_shader_tree.h, gl_code_slabs.h).
 #include "slicing/gl_slice_renderer.h"
 
 #include <glad/gl.h>
@@ -70,10 +70,9 @@ void GlSlabPass::take_plan() {
 
 void GlSlabPass::set_up_program() {
     source_.bind(program_);
-    if (plan_.blending == Blending::barrier) program_.set("target", target_unit);
-    if (plan_.emulation || plan_.dither) program_.set("image_rows", image_height_);
-    if (plan_.emulation) program_.set("seed", static_cast<int>(plan_.emulation->seed));
-    if (plan_.dither) program_.set("dither_ranks", ranks_unit);
+    if (!plan_.dither) return;
+    program_.set("image_rows", image_height_);
+    program_.set("dither_ranks", ranks_unit);
 }
 
 void GlSlabPass::set_view(const View& view, const Slabs& slabs) {
@@ -93,10 +92,10 @@ void GlSlabPass::set_view(const View& view, const Slabs& slabs) {
                  glm::vec2(static_cast<float>(view.width), static_cast<float>(view.height)));
 }
 
-void GlSlabPass::draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) {
+void GlSlabPass::draw(const SampleSpan& span, double depth_scale) {
     const bool opacity_only = plan_.has_tree(NodeArithmetic::fixed);
-    const CompositingState state(plan_, opacity_only, target);
-    if (opacity_only && (plan_.emulation || plan_.dither)) {
+    const CompositingState state(plan_, opacity_only);
+    if (opacity_only && plan_.dither) {
         program_.set("depth_scale", depth_scale);  // codes are computed in double
     } else if (opacity_only) {
         program_.set("depth_scale", static_cast<float>(depth_scale));
@@ -116,21 +115,9 @@ void GlSlabPass::draw_brick(std::size_t place, const SampleSpan& span) {
         starts_.data() + place * static_cast<std::size_t>(slabs_.count + 1);
     const bool front_to_back = plan_.order == Order::front_to_back;
     const int first = front_to_back ? span.first : slabs_.count - span.end();
-    const auto draw_slabs = [&](int from, int count) {
-        const std::size_t begin = starts[from], end = starts[from + count];
-        if (end > begin) {
-            gl::api().DrawArrays(GL_TRIANGLES, static_cast<int>(begin),
-                                 static_cast<int>(end - begin));
-        }
-    };
-    if (plan_.blending != Blending::barrier) {
-        draw_slabs(first, span.count);
-        return;
-    }
-    for (int i = 0; i < span.count; ++i) {
-        draw_slabs(first + i, 1);
-        finish_layer(plan_);
-    }
+    const std::size_t begin = starts[first], end = starts[first + span.count];
+    if (end > begin)
+        gl::api().DrawArrays(GL_TRIANGLES, static_cast<int>(begin), static_cast<int>(end - begin));
 }
 
 GlSliceRenderer::GlSliceRenderer(const Volume& volume, const TransferFunction& transfer_function,
@@ -221,7 +208,7 @@ void GlSliceRenderer::draw_straight(Progress* progress) {
         const bool front_to_back = plan_.order == Order::front_to_back;
         const SampleSpan part =
             child_span(all, front_to_back ? batch : plan_.batches - 1 - batch, plan_.batches);
-        if (part.count > 0) slabs_->draw(part, *target_, 1);
+        if (part.count > 0) slabs_->draw(part, 1);
         gl::api().Finish();
         check_interrupt();
         if (progress != nullptr) progress->advance();
@@ -233,7 +220,6 @@ void GlSliceRenderer::read(Image& image) const {
         marched_->read(image);
     } else {
         target_->read_back(image);
-        if (plan_.emulation) decode(image, plan_);
     }
 }
 

@@ -21,9 +21,9 @@ class GlSlabPass : public TreeLeaves {
     // Must be called after source and plan have changed in what belongs to one view alone.
     void take_plan();
     void set_view(const View& view, const Slabs& slabs);
-    // Composites slabs onto the target, in the plan's order. `depth_scale`: 1 or, for a leaf, the
-    // number of all samples of the ray over that of the leaf.
-    void draw(const SampleSpan& span, const gl::Framebuffer& target, double depth_scale) override;
+    // Composites slabs onto the bound target, in the plan's order. `depth_scale`: 1 or, for a leaf,
+    // the number of all samples of the ray over that of the leaf.
+    void draw(const SampleSpan& span, double depth_scale) override;
 
   private:
     void set_up_program();

@@ -26,7 +26,6 @@ Capabilities cpu_capabilities() {
     capabilities.max_3d_texture_size = std::numeric_limits<int>::max();
     // Gather instructions address memory by vectors of signed 32-bit numbers.
     capabilities.max_texture_bytes = std::uint64_t{std::numeric_limits<std::int32_t>::max()};
-    capabilities.framebuffer_fetch = true;  // a fragment may read its pixel
     return capabilities;
 }
 

@@ -19,17 +19,17 @@ std::array<Capabilities, 3> usual_capabilities() {
     constexpr int any = std::numeric_limits<int>::max();
     Capabilities native, mesa, gpu;
     native.renderer = "native";
-    native.cpu = native.framebuffer_fetch = true;
+    native.cpu = true;
     native.max_texture_size = 32768;
     native.max_3d_texture_size = any;
     native.max_texture_bytes = any;
     mesa.renderer = "software";
     mesa.max_texture_size = 16384;
     mesa.max_3d_texture_size = 2048;
-    mesa.framebuffer_fetch = mesa.exact_float_filter = true;
+    mesa.exact_float_filter = true;
     gpu = mesa;
     gpu.renderer = "GPU";
-    gpu.software = gpu.framebuffer_fetch = gpu.exact_float_filter = false;
+    gpu.software = gpu.exact_float_filter = false;
     gpu.eight_bit_filter = true;
     return {native, mesa, gpu};
 }

@@ -56,7 +56,7 @@ void expect_parts(const std::string& text, std::initializer_list<const char*> pa
     for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << text;
 }
 
-TEST(CompositingPlan, EmulatedTargetsAreBlendedByTheProgram) {
+TEST(CompositingPlan, EmulatedTargetsAreComposedInRegisters) {
     nlohmann::json document =
         scene_with({{"target", "emulated"}, {"emulate", {{"bits", 12}, {"over", "fused"}}}});
     Capabilities capabilities = usual();
@@ -65,14 +65,11 @@ TEST(CompositingPlan, EmulatedTargetsAreBlendedByTheProgram) {
     ASSERT_TRUE(slice.emulation.has_value());
     EXPECT_EQ(slice.emulation->over, OverRounding::fused);
     EXPECT_EQ(slice.code_bits(), 12);
-    // The rasteriser draws leaves of trees of fixed-point nodes.
     document["render"]["slice"]["tree"] = {{"factors", "4"}, {"nodes", "fixed"}};
-    EXPECT_EQ(slice_of(document, capabilities).blending, Blending::barrier);
-    capabilities.framebuffer_fetch = true;
-    EXPECT_EQ(slice_of(document, capabilities).blending, Blending::fetch);
+    EXPECT_EQ(slice_of(document, capabilities).blending, Blending::registers);
     capabilities.cpu = true;
     EXPECT_EQ(slice_of(document, capabilities).blending, Blending::tiles);
-    // Other targets never need a programmable blend.
+    // The blending unit composites other targets.
     slice = slice_of(scene_with({{"target", "fixed8"}}), capabilities);
     EXPECT_EQ(slice.blending, Blending::native);
     EXPECT_FALSE(slice.emulation.has_value());
@@ -186,14 +183,13 @@ TEST(CompositingPlan, AutomaticTreesCountVisibleSlabs) {
 }
 
 TEST(CompositingPlan, ExplainSaysHowSlabsAreComposited) {
-    expect_parts(
-        explained(scene_with({{"target", "emulated"},
-                              {"emulate", {{"bits", 12}, {"alpha", "nearest"}}},
-                              {"slice",
-                               {{"dither", {{"period", "auto"}, {"increment", 3}}},
-                                {"tree", {{"factors", {4, 4}}, {"nodes", "fixed"}}}}}})),
-        {"12 bits, alpha nearest, over separate", "texture barriers", "in front of the eye",
-         "slab opacity", "period 40, seed 1, increment 3", "4x4x3, nodes fixed"});
+    expect_parts(explained(scene_with({{"target", "emulated"},
+                                       {"emulate", {{"bits", 12}, {"alpha", "nearest"}}},
+                                       {"slice",
+                                        {{"dither", {{"period", "auto"}, {"increment", 3}}},
+                                         {"tree", {{"factors", {4, 4}}, {"nodes", "fixed"}}}}}})),
+                 {"12 bits, alpha nearest, over separate", "registers", "in front of the eye",
+                  "slab opacity", "period 40, seed 1, increment 3", "4x4x3, nodes fixed"});
     expect_parts(explained(rendered("fixed8", {{"dither", nlohmann::json::object()},
                                                {"tree", {{"factors", "8x5"}, {"code", "phi"}}}})),
                  {"8x5, nodes shader, code phi, alpha 8 bits", "dither", "nothing to dither"});

@@ -2,6 +2,8 @@
 // Codes of the cpu engine, compared pixel by pixel with those of OpenGL's programs and blending.
 #include <algorithm>
 
+#include "compositing/tree_shape.h"
+
 #include "projection_fixture.h"
 #include "support/split_box.h"
 
@@ -74,6 +76,53 @@ TEST_F(CpuCodes, MatchOpenGlInDitheredTargets) {
                 << name_of(target) << ", " << name_of(dither);
         }
     }
+}
+
+// Tets are cut by the near plane, and lists of tiles take several dispatches.
+TEST_F(CpuCodes, MatchOpenGlFromInside) {
+    Scene wanted = scene(Target::emulated);
+    wanted.camera->eye = {.31, .42, .53};
+    wanted.camera->center = {1, .6, .4};
+    wanted.camera->fov_y = 110;
+    wanted.emulate = {8, AlphaRounding::stochastic, OverRounding::separate, 7};
+    EXPECT_LE(differing_of(wanted), most_differing(8));
+    wanted.camera->projection = Projection::orthographic;
+    wanted.camera->height = 2;
+    EXPECT_LE(differing_of(wanted), most_differing(8));
+}
+
+// A single colour, in leaves of many tets and of few.
+TEST_F(CpuCodes, MatchOpenGlInTrees) {
+    Scene wanted = scene(Target::emulated);
+    wanted.transfer_function =
+        TransferFunction::linear({knot(0, {1, .5, .2}, .1), knot(1, {1, .5, .2}, 1)});
+    for (const int bits : {8, 16}) {
+        for (const AlphaRounding alpha : {AlphaRounding::nearest, AlphaRounding::stochastic}) {
+            for (const std::vector<int>& factors :
+                 {std::vector{1}, std::vector{7}, std::vector{3, 4, 2}}) {
+                wanted.emulate = {bits, alpha, OverRounding::separate, 3};
+                wanted.project.tree =
+                    TreeSettings{.factors = factors, .nodes = NodeArithmetic::fixed};
+                EXPECT_LE(differing_of(wanted), 4 * most_differing(bits))
+                    << bits << " bits, alpha " << name_of(alpha) << ", tree " << to_text(factors);
+            }
+        }
+    }
+}
+
+// The cpu engine's nodes round as llvmpipe's blending unit does, and OpenGL's to the nearest code:
+// at each of three children and three of theirs the results may lie half a code apart.
+TEST_F(CpuCodes, AreNearOpenGlInTreesDitheredAfterTheBlend) {
+    Scene wanted = scene(Target::fixed16);
+    wanted.transfer_function =
+        TransferFunction::linear({knot(0, {1, .5, .2}, .01), knot(1, {1, .5, .2}, .1)});
+    wanted.project.dither = ProjectDither::after_blend;
+    wanted.project.tree = TreeSettings{.factors = {3, 3}, .nodes = NodeArithmetic::fixed};
+    EXPECT_LE(image_error(project(mesh_, wanted, cpu_capabilities()),
+                          project(mesh_, wanted, capabilities()))
+                      .all.linf *
+                  257,
+              6);
 }
 
 TEST_F(CpuCodes, MatchOpenGlInNativeTargets) {

@@ -124,7 +124,29 @@ TEST(ProjectPlan, DitherNeedsCodes) {
         dithered(scene);
         scene.target = Target::fixed8;
     });
-    EXPECT_EQ(fixed8.project.blending, Blending::barrier);  // without framebuffer fetch
+    EXPECT_EQ(fixed8.project.blending, Blending::registers);
+}
+
+// OpenGL's compute shaders composite codes, and draw no triangles.
+TEST(ProjectPlan, CodesOfOpenGlNeedSilhouettes) {
+    const auto draw = [](ProjectDither dither, Coloring coloring, ProjectGeometry geometry) {
+        return plan_for(colored, [&](Scene& scene) {
+            scene.target = dither == ProjectDither::none ? Target::emulated : Target::fixed8;
+            scene.project.dither = dither;
+            scene.project.coloring = coloring;
+            scene.project.geometry = geometry;
+        });
+    };
+    using enum ProjectDither;
+    EXPECT_EQ(draw(none, Coloring::preintegrated, ProjectGeometry::silhouette).project.blending,
+              Blending::registers);
+    expect_error([&] { draw(none, Coloring::vertex, ProjectGeometry::triangles); },
+                 {"render.target", "emulated", "triangles", "--context cpu"});
+    expect_error([&] { draw(after_blend, Coloring::preintegrated, ProjectGeometry::triangles); },
+                 {"render.project.dither", "after_blend", "triangles", "--context cpu"});
+    // The blending unit composites what was dithered before.
+    EXPECT_EQ(draw(alpha, Coloring::vertex, ProjectGeometry::triangles).project.blending,
+              Blending::native);
 }
 
 TEST(ProjectPlan, TreesNeedFixedNodesAndOneColor) {

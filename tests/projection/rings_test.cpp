@@ -114,8 +114,10 @@ TEST_P(Rings, AreTheSameInEveryTarget) {
     const RingScene each = ring_scenes().front();
     const SceneMesh mesh = scene_mesh(each.mesh);
     Scene scene = each.scene;
+    scene.emulate.alpha = AlphaRounding::nearest;
     const Image exact = draw(mesh, scene).picture;
-    for (const Target target : {Target::float16, Target::fixed16, Target::fixed8}) {
+    for (const Target target :
+         {Target::float16, Target::fixed16, Target::fixed8, Target::emulated}) {
         scene.target = target;
         // A pixel has three tets at most, and their parts are some ten fragments.
         EXPECT_LE(image_error(draw(mesh, scene).picture, exact).all.linf, 10);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "projection/gl_mesh_walk.h"
+#include "projection/gl_tet_codes.h"
 #include "projection_fixture.h"
 
 namespace lamina {
@@ -33,19 +34,17 @@ std::vector<ProjectPlan> output_plans() {
         ProjectPlan plan;
         plan.target = Target::fixed8;
         plan.dither = dither;
-        plan.blending = dither == ProjectDither::after_blend ? Blending::barrier : Blending::native;
+        if (dither == ProjectDither::after_blend) plan.blending = Blending::registers;
         plans.push_back(plan);
     }
     for (const AlphaRounding rounding :
          {AlphaRounding::truncate, AlphaRounding::nearest, AlphaRounding::stochastic}) {
         for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {
-            for (const Blending blending : {Blending::fetch, Blending::barrier}) {
-                ProjectPlan plan;
-                plan.target = Target::emulated;
-                plan.emulation = Emulation{8, rounding, over, 1};
-                plan.blending = blending;
-                plans.push_back(plan);
-            }
+            ProjectPlan plan;
+            plan.target = Target::emulated;
+            plan.emulation = Emulation{8, rounding, over, 1};
+            plan.blending = Blending::registers;
+            plans.push_back(plan);
         }
     }
     return plans;
@@ -97,6 +96,14 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
         }
         plan.table.built = cache.get(transfer_function, request);
         const GlProjectTables tables(transfer_function, plan);
+        if (plan.blending == Blending::registers) {
+            if (values) return;  // only triangles have them
+            const gl::Defines defines = tet_code_defines(plan, tables);
+            if (!seen.insert(gl::compose_shader("projection/codes.comp", defines).text).second)
+                return;
+            EXPECT_NO_THROW(gl::Program("projection/codes.comp", defines));
+            return;
+        }
         for (const FragmentKind kind :
              {FragmentKind::thin, FragmentKind::plain, FragmentKind::careful}) {
             const bool fan = plan.geometry == ProjectGeometry::triangles;
@@ -123,7 +130,7 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
         for (const ProjectPlan& plan : geometry_plans()) compile(plan, source, false, true, 4);
     }
     for (const ProjectPlan& plan : output_plans())
-        compile(plan, SegmentSource::table, false, true, 4);
+        for (const SegmentSource source : sources) compile(plan, source, false, true, 4);
     for (ProjectPlan plan : output_plans()) {  // leaves of trees, with every source in one colour
         plan.tree = {4};
         for (const SegmentSource source : sources) compile(plan, source, true, true, 1);

@@ -100,7 +100,7 @@ class RampTest : public SlicingTest {
   protected:
     Volume volume_ = generate({"ramp", {}, SampleType::uint8});
 
-    void compare(const RampCase& wanted, Capabilities capabilities) {
+    void compare(const RampCase& wanted) {
         Scene scene = ramp_scene({1, 1, 1});
         scene.slice.samples = wanted.samples;
         scene.emulate.alpha = wanted.alpha;
@@ -110,7 +110,7 @@ class RampTest : public SlicingTest {
             scene.slice.tree =
                 TreeSettings{.factors = wanted.factors, .nodes = NodeArithmetic::fixed};
         }
-        const Image image = render(volume_, scene, capabilities);
+        const Image image = render(volume_, scene, capabilities());
         Simulation simulation(wanted);
         for (int x = 0; x < width; ++x) {
             const float expected = static_cast<float>(simulation.pixel(x) / 255.0);
@@ -135,21 +135,12 @@ TEST_F(RampTest, EveryCombinationMatchesTheIntegerSimulation) {
             for (const OverRounding over : {OverRounding::separate, OverRounding::fused}) {
                 for (const int period : {0, 4, 11, 64, 256}) {
                     for (const std::vector<int>& factors : ramp_trees) {
-                        compare({samples, alpha, over, period, factors}, capabilities());
+                        compare({samples, alpha, over, period, factors});
                         if (HasFatalFailure()) return;
                     }
                 }
             }
         }
-    }
-}
-
-TEST_F(RampTest, TextureBarriersMatchTheIntegerSimulation) {
-    Capabilities capabilities_without = capabilities();
-    capabilities_without.framebuffer_fetch = false;
-    for (const std::vector<int>& factors : {std::vector<int>{}, {16, 4}, {4, 4, 4}}) {
-        compare({64, AlphaRounding::nearest, OverRounding::separate, 11, factors},
-                capabilities_without);
     }
 }
 

@@ -7,9 +7,8 @@
 #include <filesystem>
 #include <map>
 #include <set>
-#include <sstream>
 
-#include "executors/gl_compositing.h"
+#include "executors/gl_code_tree.h"
 #include "slicing/gl_shader_tree.h"
 #include "slicing/gl_slice_renderer.h"
 #include "slicing_fixture.h"
@@ -139,18 +138,6 @@ std::vector<Emulation> every_emulation() {
     return emulations;
 }
 
-std::vector<SlicePlan> with_every_order_and_blending(const SlicePlan& plan) {
-    std::vector<SlicePlan> plans;
-    for (const Order order : {Order::back_to_front, Order::front_to_back}) {
-        for (const Blending blending : {Blending::fetch, Blending::barrier}) {
-            plans.push_back(plan);
-            plans.back().order = order;
-            plans.back().blending = blending;
-        }
-    }
-    return plans;
-}
-
 std::vector<SlicePlan> with_every_dither(const SlicePlan& plan) {
     std::vector<SlicePlan> plans(3, plan);
     plans[1].dither = Dither{};
@@ -167,11 +154,12 @@ std::vector<SlicePlan> every_code_plan() {
             plain.back().target = target;
         }
         for (const Emulation& emulation : every_emulation()) {
-            SlicePlan emulated = segments;
-            emulated.target = Target::emulated;
-            emulated.emulation = emulation;
-            for (const SlicePlan& plan : with_every_order_and_blending(emulated))
-                plain.push_back(plan);
+            for (const Order order : {Order::back_to_front, Order::front_to_back}) {
+                plain.push_back(segments);
+                plain.back().target = Target::emulated;
+                plain.back().emulation = emulation;
+                plain.back().order = order;
+            }
         }
     }
     for (const SlicePlan& plan : plain) {
@@ -244,14 +232,17 @@ void add_slabs(Specialisations& all) {
     }
     for (const SlicePlan& plan : every_code_plan()) {
         const gl::Defines defines = slab_defines(plan, segment_defines(plan, 6, table_nodes));
-        if (plan.emulation && !plan.tree) {
+        if (plan.emulation) {
             add(all, {"slicing/codes.comp"}, defines);
+            if (!plan.tree) continue;
+            add(all, {"slicing/swizzle.comp"}, code_tree_defines(plan));
+            add(all, {"slicing/colorize.comp"}, code_tree_defines(plan));
             continue;
         }
         add(all, {"slicing/slab.vert", "slicing/slab.frag"}, defines);
         if (!plan.has_tree(NodeArithmetic::fixed)) continue;
         add(all, {"gl/full_screen.vert", "slicing/swizzle.frag"}, swizzle_defines(plan));
-        add(all, {"gl/full_screen.vert", "slicing/colorize.frag"}, colorize_defines(plan));
+        add(all, {"gl/full_screen.vert", "slicing/colorize.frag"}, {});
     }
 }
 
@@ -282,48 +273,24 @@ void add_nodes(Specialisations& all, LeafSegments leaves) {
     }
 }
 
-void expect_to_compile(const Specialisations& all, bool framebuffer_fetch) {
-    for (const auto& [text, program] : all.by_text) {
-        const bool fetches = text.find("#define FRAMEBUFFER_FETCH") != std::string::npos;
-        if (fetches && !framebuffer_fetch) continue;  // no plan asks for it in this context
-        EXPECT_NO_THROW(gl::Program(program.sources()));
-    }
+void expect_to_compile(const Specialisations& all) {
+    for (const auto& [text, program] : all.by_text) EXPECT_NO_THROW(gl::Program(program.sources()));
 }
 
 TEST_F(SlicingTest, EverySlabShaderCompiles) {
     Specialisations all;
     add_slabs(all);
     EXPECT_GE(all.by_text.size(), 600u);  // the plans above ask for different texts
-    expect_to_compile(all, capabilities().framebuffer_fetch);
+    expect_to_compile(all);
 }
 
 TEST_F(SlicingTest, NodeShadersCompileWithTwoKindsOfSegments) {
     Specialisations all;
     add_nodes(all, LeafSegments::two);
     EXPECT_GE(all.by_text.size(), 60u);
-    expect_to_compile(all, capabilities().framebuffer_fetch);
+    expect_to_compile(all);
 }
 
-// Only #version and the preprocessor's lines come before #extension (GLSL 4.50, section 3.3).
-TEST(SlicingShaders, ExtensionsComeBeforeAllElse) {
-    Specialisations all;
-    add_slabs(all);
-    int extensions = 0;
-    for (const auto& [ignored, program] : all.by_text) {
-        const std::string text = program.sources().back().text;
-        const std::size_t extension = text.find("#extension");
-        if (extension == std::string::npos) continue;
-        ++extensions;
-        std::istringstream before(text.substr(0, extension));
-        for (std::string line; std::getline(before, line);) {
-            EXPECT_TRUE(line.empty() || line[0] == '#' || line.starts_with("//")) << line;
-        }
-    }
-    EXPECT_GT(extensions, 0);
-}
-
-// Specialisations with framebuffer fetch are left out, because glslang knows
-// GL_EXT_shader_framebuffer_fetch in OpenGL ES only.
 TEST(SlicingShaders, EverySpecialisationPassesGlslang) {
     if (std::system("glslangValidator --version > /dev/null 2>&1") != 0)
         GTEST_SKIP() << "no glslangValidator";
@@ -334,7 +301,6 @@ TEST(SlicingShaders, EverySpecialisationPassesGlslang) {
     // Programs share stages, so each text is tested once.
     std::map<std::string, std::string> extensions;
     for (const auto& [text, program] : all.by_text) {
-        if (text.find("#define FRAMEBUFFER_FETCH") != std::string::npos) continue;
         for (const gl::ShaderSource& source : program.sources()) {
             extensions.try_emplace(source.text,
                                    std::filesystem::path(source.name).extension().string());

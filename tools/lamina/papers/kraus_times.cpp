@@ -40,8 +40,10 @@ std::vector<Technique> techniques(const Scene& best) {
     ladder.push_back({"+ octave lookup", with_mapping(scene, LengthMapping::octave)});
     ladder.push_back(
         {"log2, alpha dithering", with_target(scene, Target::fixed8, ProjectDither::alpha), 0.621});
-    ladder.push_back({"log2, dithering after the blend",
-                      with_target(scene, Target::fixed8, ProjectDither::after_blend)});
+    // OpenGL composites silhouettes alone on codes.
+    const Scene silhouettes = with_geometry(scene, ProjectGeometry::silhouette);
+    ladder.push_back({"log2, dithering after the blend, silhouettes",
+                      with_target(silhouettes, Target::fixed8, ProjectDither::after_blend)});
     ladder.push_back({"log2, float16 buffer", with_target(scene, Target::float16)});
     ladder.push_back({"log2, float32 buffer", with_target(scene, Target::float32), 1.781});
     ladder.push_back({"ours, triangles", with_default_integration(fans)});

@@ -189,7 +189,7 @@ Image PaletteSlices::draw() {
     target_.clear(glm::vec4(0));
     indices_.bind(0);
     palette_.bind(1);
-    const CompositingState blending(CompositingPlan{}, false, target_);
+    const CompositingState blending(CompositingPlan{}, false);
     const std::span<const std::uint8_t> palettes(palettes_);
     for (int slice = 0; slice < slices_; ++slice) {
         if (source_ == Source::upload) {

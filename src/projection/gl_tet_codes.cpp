@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws a frame of a mesh on codes:
+//   1. Sort the visible cell fragments into visibility order.
+//   2. For each batch: project them on all cores, and list them for the tiles that they may cover.
+//   3. Dispatch projection/codes.comp, a workgroup a tile, until all lists are done.
+// With a compositing tree, steps 2 and 3 draw each leaf, and GlCodeTree composites the leaves.
+#include "projection/gl_tet_codes.h"
+
+#include <glad/gl.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/client.h"
+#include "base/parallel.h"
+#include "base/profile.h"
+#include "compositing/codes.h"
+#include "gl/api.h"
+#include "gl/context.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::size_t batch_size = 32768;  // cell fragments; entries have 20 bits for their numbers
+
+constexpr int tiles_of_dispatch = 16384;  // in one dispatch; OpenGL allows 65535
+
+enum StorageBinding : unsigned {
+    record_binding,
+    gradient_binding,
+    picture_binding,
+    tile_binding,
+    entry_binding
+};
+
+// Returns the number of entries of a tile's list for one dispatch. Software rasterisers end all
+// loops of an invocation together after 65535 rounds, also those that integrate a fragment, and
+// draw up to 16 pixels at once, whose rounds add up if they meet other fragments. GPUs should take
+// no longer than RowPace::wanted_ms.
+int most_in_dispatch(const ProjectPlan& plan, int intervals) {
+    constexpr int most = 65000 / 16, least = 16;
+    if (!gl::current_context()->capabilities().software) return most;
+    // Pieces of a lit segment are 1 / 256 of it or longer, and each may be shortened some times.
+    if (plan.lighting) return least;
+    // Look-ups before the window, in it and behind it, each with two searches.
+    const int rounds = 2 + (plan.windowed ? 3 : 1) * (6 + 2 * intervals);
+    return std::max(most / rounds, least);
+}
+
+// Writes elements to a buffer, which grows if they do not fit.
+template <typename T>
+void write(std::span<const T> elements, gl::Buffer& buffer) {
+    if (buffer.byte_count() < elements.size_bytes())
+        buffer = gl::Buffer(elements.size_bytes() + elements.size_bytes() / 2);
+    buffer.write(elements);
+}
+
+// Returns the entry of a cell fragment in the list of a tile, as projection/codes.comp reads it.
+std::uint32_t entry_of(std::size_t number, const PixelArea& area, int column, int row) {
+    const auto place = [](int pixel, int first) {
+        return static_cast<std::uint32_t>(std::clamp(pixel - first, 0, TileLists::size - 1));
+    };
+    return static_cast<std::uint32_t>(number) << 12 | place(area.last_row, row) << 9 |
+           place(area.first_row, row) << 6 | place(area.last_column, column) << 3 |
+           place(area.first_column, column);
+}
+
+}  // namespace
+
+gl::Defines tet_code_defines(const ProjectPlan& plan, const GlProjectTables& tables) {
+    // Doubles are right for all fragments, and software rasterisers skip no branches.
+    gl::Defines defines = project_defines(plan, FragmentKind::careful);
+    tables.set_defines(defines);
+    return defines;
+}
+
+struct GlTetCodes::Leaves : CodeLeaves {
+    Leaves(GlTetCodes& owner, const TetProjector& projection,
+           const DrawOrder<CellFragment>& fragments)
+        : renderer(owner), projector(projection), cell_fragments(fragments) {}
+
+    void draw(const SampleSpan& span, const GlPixels& opacity, double depth_scale) override {
+        renderer.program_->set("depth_scale", static_cast<float>(depth_scale));
+        renderer.composite(projector,
+                           cell_fragments_of_leaf(cell_fragments, span, renderer.visible_->count()),
+                           opacity, [] {});
+    }
+
+    GlTetCodes& renderer;
+    const TetProjector& projector;
+    const DrawOrder<CellFragment>& cell_fragments;
+};
+
+GlTetCodes::GlTetCodes(const SceneMesh& mesh, const TransferFunction& transfer_function,
+                       const ProjectPlan& plan, int width, int height,
+                       std::shared_ptr<VisibilityOrder> order)
+    : ProjectRenderer(mesh, transfer_function, plan, std::move(order)),
+      width_(width),
+      height_(height),
+      picture_(plan.code_bits() > 8 ? PixelPacking::shorts : PixelPacking::bytes, width, height) {
+    if (plan_.nothing_visible) return;
+    Stage tables("tables");
+    tables_.emplace(transfer_function_, plan_);
+    table_ms_ = tables.end();
+    if (plan_.lighting)
+        gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
+    program_.emplace("projection/codes.comp", tet_code_defines(plan_, *tables_));
+    most_of_list_ = most_in_dispatch(plan_, tables_->intervals());
+    find_visible_cell_fragments();
+    const auto cell_fragments = static_cast<std::size_t>(visible_->count());
+    records_.resize(std::min(batch_size, cell_fragments));
+    if (plan_.lighting) gradient_records_.resize(records_.size());
+    areas_.resize(records_.size());
+    if (plan_.tree.empty() || cell_fragments == 0) return;
+    const TreeShape shape(plan_.tree, static_cast<int>(cell_fragments));
+    tree_.emplace(plan_, shape, tables_->single_color(), width, height);
+}
+
+int GlTetCodes::step_count() const {
+    if (tree_) return tree_->step_count();
+    if (records_.empty()) return 0;
+    const auto cell_fragments = static_cast<std::size_t>(visible_->count());
+    return static_cast<int>((cell_fragments + batch_size - 1) / batch_size);
+}
+
+void GlTetCodes::draw(const View& view, Progress* progress) {
+    picture_.clear();
+    order_ms_ = draw_ms_ = list_ms_ = 0;
+    tets_drawn_ = 0;
+    if (records_.empty()) return;
+    Stage ordering("order");
+    const DrawOrder<CellFragment> cell_fragments =
+        visible_->sorted(*order_, view, plan_.scattered, plan_.solve_rings);
+    order_ms_ = ordering.end();
+    Stage drawing("draw");
+    set_view(view);
+    constexpr double margin = 1e-3;  // pixel, as on the CPU: far beyond rounding
+    const TetProjector projector({mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_,
+                                  WindowView(seeing_in_units(view, plan_.unit)), plan_.near_depth,
+                                  margin, gradients_.at_points});
+    timeline_.begin("draw");
+    if (tree_) {
+        Leaves leaves(*this, projector, cell_fragments);
+        tree_->draw(leaves, picture_, progress);
+    } else {
+        composite(projector, cell_fragments, picture_, [&] {
+            if (progress != nullptr) progress->advance();
+        });
+    }
+    timeline_.end();
+    gl::api().Finish();
+    gl::check("drawing tets on codes");
+    drawing.count("tets", static_cast<double>(tets_drawn_));
+    draw_ms_ = drawing.end();
+    timeline_.collect();
+}
+
+void GlTetCodes::set_view(const View& view) {
+    tables_->bind(*program_);
+    set_projection(plan_, gradients_, view, *program_);
+    program_->set("picture_size", glm::ivec2(width_, height_));
+}
+
+void GlTetCodes::composite(const TetProjector& projector,
+                           const DrawOrder<CellFragment>& cell_fragments, const GlPixels& picture,
+                           const std::function<void()>& batch_done) {
+    program_->set("picture_row", picture.row_words());
+    const std::size_t count = cell_fragments.items.size();
+    for (std::size_t first = 0; first < count; first += records_.size()) {
+        Stage listing("geometry");
+        const std::size_t in_batch = std::min(records_.size(), count - first);
+        list(projector, cell_fragments.subrange(first, in_batch));
+        upload(in_batch);
+        list_ms_ += listing.end();
+        picture.bind(picture_binding, 0, height_);
+        dispatch();
+        gl::api().Finish();  // before the buffers are written again
+        check_interrupt();
+        batch_done();
+    }
+}
+
+void GlTetCodes::list(const TetProjector& projector, const DrawOrder<CellFragment>& batch) {
+    const PixelArea nowhere{0, -1, 0, -1};
+    const std::size_t count = batch.items.size();
+    parallel_for(static_cast<std::int64_t>(count), 64, [&](std::int64_t index) {
+        const auto i = static_cast<std::size_t>(index);
+        ScreenOutline outline;
+        GradientRecord* const lit = gradient_records_.empty() ? nullptr : &gradient_records_[i];
+        areas_[i] = nowhere;
+        if (!projector.project(batch.items[i], records_[i], outline, lit)) return;
+        const PixelBounds bounds =
+            pixel_bounds(outline.points(), projector.tets().margin, width_, height_);
+        if (bounds.empty()) return;
+        areas_[i] = {bounds.first_column, bounds.last_column, height_ - 1 - bounds.last_row,
+                     height_ - 1 - bounds.first_row};
+        if (const PixelArea* const limit = batch.pixels(i))
+            areas_[i] = common_pixels(areas_[i], *limit);
+    });
+    std::int32_t last_tet = -1;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (areas_[i].empty()) continue;
+        if (batch.items[i].tet != last_tet) ++tets_drawn_;
+        last_tet = batch.items[i].tet;
+    }
+    lists_.list(std::span(areas_).first(count), width_, height_,
+                [&](std::size_t number, int column, int row) {
+                    return entry_of(number, areas_[number], column, row);
+                });
+    // Longest lists first, so that those which a dispatch draws are the first ones.
+    std::ranges::sort(lists_.tiles, std::ranges::greater(),
+                      [](const TileLists::Tile& tile) { return tile.end - tile.first; });
+}
+
+void GlTetCodes::upload(std::size_t count) {
+    if (lists_.tiles.empty()) return;
+    write(std::span<const SilhouetteRecord>(records_).first(count), record_buffer_);
+    record_buffer_.bind_storage(record_binding);
+    if (!gradient_records_.empty()) {
+        write(std::span<const GradientRecord>(gradient_records_).first(count), gradient_buffer_);
+        gradient_buffer_.bind_storage(gradient_binding);
+    }
+    write(std::span<const TileLists::Tile>(lists_.tiles), tile_buffer_);
+    write(std::span<const std::uint32_t>(lists_.entries), entry_buffer_);
+    tile_buffer_.bind_storage(tile_binding);
+    entry_buffer_.bind_storage(entry_binding);
+}
+
+void GlTetCodes::dispatch() {
+    program_->set("most_of_list", most_of_list_);
+    auto left = static_cast<int>(lists_.tiles.size());  // tiles whose lists are not done
+    for (int begin = 0; left > 0; begin += most_of_list_) {
+        program_->set("first_of_list", begin);
+        for (int first = 0; first < left; first += tiles_of_dispatch) {
+            program_->set("first_tile", first);
+            program_->dispatch(std::min(tiles_of_dispatch, left - first));
+        }
+        const auto done = [&](const TileLists::Tile& tile) {
+            return static_cast<int>(tile.end - tile.first) <= begin + most_of_list_;
+        };
+        while (left > 0 && done(lists_.tiles[static_cast<std::size_t>(left) - 1])) --left;
+    }
+}
+
+void GlTetCodes::read(Image& image) const {
+    picture_.read(image, largest_code(plan_.code_bits()));
+}
+
+std::map<std::string, double> GlTetCodes::stages_ms() const {
+    return {
+        {"tables", table_ms_}, {"order", order_ms_}, {"geometry", list_ms_}, {"draw", draw_ms_}};
+}
+
+}  // namespace lamina
