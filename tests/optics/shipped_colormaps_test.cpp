@@ -140,9 +140,9 @@ TEST(ShippedColormaps, PresetsForCtKeepTheirUnitsAndHaveOpacities) {
 }
 
 TEST(ShippedColormaps, NamesAreListedAndSuggested) {
-    const std::vector<std::string> expected{"cividis", "cool-warm",      "ct-angio", "ct-bone",
-                                            "ct-lung", "ct-soft-tissue", "greys",    "inferno",
-                                            "viridis"};
+    const std::vector<std::string> expected{"cividis", "cool-warm", "ct-angio",
+                                            "ct-bone", "ct-lung",   "ct-soft-tissue",
+                                            "greys",   "inferno",   "viridis"};
     EXPECT_EQ(colormap_names(), expected);
     for (const std::string& name : expected) EXPECT_TRUE(is_colormap_name(name));
     EXPECT_FALSE(is_colormap_name("jet"));
