@@ -177,7 +177,7 @@ TEST(Pipeline, SaysThatALabelHasTheColourOfTheBackground) {
               std::string::npos)
         << heard.all();
     heard.texts.clear();
-    document["background"] = {1, 1, 1};
+    document["image"]["background"] = {1, 1, 1};
     Pipeline white(read_scene(document, folder / "scene.json"));
     white.scene();
     EXPECT_NE(heard.all().find("to 1 of its labels (2)"), std::string::npos) << heard.all();
