@@ -29,6 +29,7 @@ constexpr double away_opacity = 0.65;
 
 std::array<const char*, 3> names_of(WorldAxes axes) {
     switch (axes) {
+        case WorldAxes::named:
         case WorldAxes::unnamed:
             return {"x", "y", "z"};
         case WorldAxes::left_posterior_superior:
