@@ -23,10 +23,12 @@ double largest_extinction(const TransferFunction& transfer_function) {
     return transfer_function.max_extinction(knots.front().value, knots.back().value);
 }
 
-std::vector<glm::dvec3> points_to_fit(const TransferFunction& transfer_function,
-                                      const Field& field) {
-    std::vector<glm::dvec3> points =
-        field.shown_points(transfer_function, seen_share * largest_extinction(transfer_function));
+// Returns the points that the picture holds: of what shows, or of the data's box if it is drawn.
+std::vector<glm::dvec3> points_to_fit(const Scene& scene, const Field& field) {
+    const TransferFunction& function = *scene.transfer_function;
+    std::vector<glm::dvec3> points;
+    if (!scene.annotations.box)
+        points = field.shown_points(function, seen_share * largest_extinction(function));
     if (!points.empty()) return points;
     const auto corners = field.corners();
     return {corners.begin(), corners.end()};
@@ -220,9 +222,8 @@ Choices choose(Scene asked, const Field& field, const Adjustments& adjustments) 
     if (chooses_camera) {
         const PictureMargins margins =
             annotation_margins(scene, annotated_data(field, scene.annotations.labels.has_value()));
-        scene.camera = fitted_camera(points_to_fit(*scene.transfer_function, field), field.axes(),
-                                     adjustments.turn, scene.width, scene.height,
-                                     adjustments.all_around, margins);
+        scene.camera = fitted_camera(points_to_fit(scene, field), field.axes(), adjustments.turn,
+                                     scene.width, scene.height, adjustments.all_around, margins);
     } else {
         scene.camera = turned(*scene.camera, adjustments.turn);
     }
