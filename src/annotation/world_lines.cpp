@@ -252,8 +252,13 @@ void draw_numbers(Pen& pen, const Annotation& wanted, const SeenBox& box, const 
         return wanted.format.empty() ? coordinate_text(value, glm::distance(from, to))
                                      : formatted(wanted.format, value);
     };
-    write(a + 0.06 * (b - a), number(low));
-    write(b - 0.06 * (b - a), number(high));
+    // Numbers of two edges that meet keep apart.
+    const auto inset = [&](const std::string& text) {
+        return (0.5 * pen.width(text, em) * std::abs(along.x) + 0.25 * em) * along;
+    };
+    const std::string first = number(low), last = number(high);
+    write(a + inset(first), first);
+    write(b - inset(last), last);
     std::string name(1, "xyz"[edge.axis]);
     if (!coordinates) name = "length";
     if (!data.length_unit.empty()) name += " (" + data.length_unit + ")";
