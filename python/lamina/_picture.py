@@ -60,8 +60,7 @@ class Picture:
         """The layer of what is drawn beside the picture (keyword ``annotations``): an array of the shape and in the colour
         space of ``array``, float32, associated; or ``None``. PNG files show it over the picture, EXR files have it as a
         layer."""
-        layer: np.ndarray | None = self._drawn.annotations
-        return layer
+        return self._drawn.annotations
 
     @property
     def error(self) -> float | None:

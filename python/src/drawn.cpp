@@ -19,9 +19,9 @@ py::list omissions_of(const Drawn& drawn) {
     return omissions;
 }
 
-py::object annotations_of(const Drawn& drawn) {
+std::optional<py::array> annotations_of(const Drawn& drawn) {
     const std::shared_ptr<const Image>& layer = drawn.annotations();
-    if (!layer) return py::none();
+    if (!layer) return std::nullopt;
     return constant_array_over(layer->rgba.data(), {layer->height, layer->width, 4}, layer);
 }
 

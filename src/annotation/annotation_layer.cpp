@@ -154,12 +154,13 @@ std::shared_ptr<const Image> annotation_layer(const Scene& scene, const Annotate
     Font font;
     Canvas canvas(scene.width, scene.height, scene.color_space);
     Pen pen(style, font, &canvas);
-    // Covers what the picture shows in and around a rectangle.
+    // Covers what the picture shows in and around a rectangle, and lines of the box.
     const auto lay_plate = [&](const Rectangle& place, double margin) {
         const Rectangle plate{std::floor(place.left - margin), std::floor(place.top - margin),
                               std::ceil(place.width + 2 * margin),
                               std::ceil(place.height + 2 * margin)};
-        if (shows(picture, plate)) canvas.fill(plate, {style.paper, plate_opacity});
+        if (scene.annotations.box || shows(picture, plate))
+            canvas.fill(plate, {style.paper, plate_opacity});
     };
     if (scene.annotations.box) {
         draw_box(pen, *scene.annotations.box, scene, data,

@@ -219,6 +219,13 @@ std::optional<Edge> numbered_edge(const SeenBox& box, int axis) {
     return best;
 }
 
+// Returns a coordinate with as many digits as tell thousandths of an edge apart.
+std::string coordinate_text(double value, double length) {
+    const int digits = 3 - static_cast<int>(std::ceil(std::log10(length)));
+    const double scale = std::pow(10, std::clamp(digits, -300, 300));
+    return number_text(std::round(value * scale) / scale + 0.0);  // no -0
+}
+
 void draw_numbers(Pen& pen, const Annotation& wanted, const SeenBox& box, const Edge& edge,
                   const AnnotatedData& data,
                   const std::function<void(const Rectangle&)>& lay_plate) {
@@ -243,10 +250,16 @@ void draw_numbers(Pen& pen, const Annotation& wanted, const SeenBox& box, const 
         pen.text_beside(text, {snapped(place.x), snapped(place.y)}, em, Align::center);
     };
     const auto number = [&](double value) {
-        return wanted.format.empty() ? number_text(value) : formatted(wanted.format, value);
+        return wanted.format.empty() ? coordinate_text(value, glm::distance(from, to))
+                                     : formatted(wanted.format, value);
     };
-    write(a + 0.06 * (b - a), number(low));
-    write(b - 0.06 * (b - a), number(high));
+    // Numbers of two edges that meet keep apart.
+    const auto inset = [&](const std::string& text) {
+        return (0.5 * pen.width(text, em) * std::abs(along.x) + 0.25 * em) * along;
+    };
+    const std::string first = number(low), last = number(high);
+    write(a + inset(first), first);
+    write(b - inset(last), last);
     std::string name(1, "xyz"[edge.axis]);
     if (!coordinates) name = "length";
     if (!data.length_unit.empty()) name += " (" + data.length_unit + ")";

@@ -6,11 +6,16 @@
 namespace lamina {
 namespace {
 
+Form<double> size_form() {
+    return number_form(
+        {.from = Annotation::least_size, .up_to = Annotation::largest_size},
+        fmt::format("a number from {} to {}", Annotation::least_size, Annotation::largest_size));
+}
+
 void add_place(KeyTable<Annotation>& keys) {
     keys.key("position", &Annotation::position, automatic_words_form<AnnotationPosition>(automatic),
              "A corner, or the middle of an edge; auto: each annotation has its own place.");
-    keys.key("size", &Annotation::size,
-             number_form({.from = Annotation::least_size, .up_to = Annotation::largest_size}),
+    keys.key("size", &Annotation::size, size_form(),
              "Factor on the size, which follows the picture's height.");
 }
 
@@ -43,9 +48,7 @@ void scale_keys(KeyTable<Annotation>& keys) {
 }
 
 void box_keys_of_annotation(KeyTable<Annotation>& keys) {
-    keys.key("size", &Annotation::size,
-             number_form({.from = Annotation::least_size, .up_to = Annotation::largest_size}),
-             "Factor on lines and numbers.");
+    keys.key("size", &Annotation::size, size_form(), "Factor on lines and numbers.");
     add_format(keys);
 }
 

@@ -23,17 +23,17 @@ Scene annotated_scene(const std::string& annotations, const std::string& more = 
 
 const char* const everything =
     R"({"colorbar": true, "scale_bar": true, "axes": true, "box": true, "title": "A title"})";
-const char* const camera = R"(, "camera": {"eye": [1, 2, 3], "center": [0.5, 0.5, 0.5]})";
+const char* const given_camera = R"(, "camera": {"eye": [1, 2, 3], "center": [0.5, 0.5, 0.5]})";
 
-SessionOptions on_cpu() {
+SessionOptions with_cpu_engine() {
     SessionOptions options;
     options.context = ContextChoice::cpu;
     return options;
 }
 
 TEST(Annotations, ChangeNoNumberOfAPictureAndAreInItsPng) {
-    Session plain(annotated_scene("{}", camera), on_cpu());
-    Session annotated(annotated_scene(everything, camera), on_cpu());
+    Session plain(annotated_scene("{}", given_camera), with_cpu_engine());
+    Session annotated(annotated_scene(everything, given_camera), with_cpu_engine());
     const Image a = plain.draw(), b = annotated.draw();
     EXPECT_EQ(a.annotations, nullptr);
     ASSERT_NE(b.annotations, nullptr);
@@ -51,25 +51,25 @@ TEST(Annotations, ChangeNoNumberOfAPictureAndAreInItsPng) {
 }
 
 TEST(Annotations, AreThoseOfTheResolvedScene) {
-    Session first(annotated_scene(everything), on_cpu());
+    Session first(annotated_scene(everything), with_cpu_engine());
     const Image a = first.draw();
-    Session second(first.resolved_scene(), on_cpu());
+    Session second(first.resolved_scene(), with_cpu_engine());
     const Image b = second.draw();
     EXPECT_EQ(a.rgba, b.rgba);
     EXPECT_EQ(a.annotations->rgba, b.annotations->rgba);
 }
 
 TEST(Annotations, AreBesideTracedPicturesToo) {
-    Scene scene = annotated_scene(everything, camera);
+    Scene scene = annotated_scene(everything, given_camera);
     scene.width = 48;
     scene.height = 32;
-    Session session(scene, on_cpu());
+    Session session(scene, with_cpu_engine());
     EXPECT_NE(session.trace().annotations, nullptr);
 }
 
 // What an automatic camera shows leaves the colour bar's part of the picture free.
 TEST(Annotations, GetRoomFromAnAutomaticCamera) {
-    Session session(annotated_scene(R"({"colorbar": true, "title": "Above"})"), on_cpu());
+    Session session(annotated_scene(R"({"colorbar": true, "title": "Above"})"), with_cpu_engine());
     const Image& picture = session.draw();
     const Image& layer = *picture.annotations;
     int shown = 0, both = 0;
