@@ -27,25 +27,16 @@ double largest_extinction(const TransferFunction& transfer_function) {
     return transfer_function.max_extinction(knots.front().value, knots.back().value);
 }
 
-<<<<<<< HEAD
-// Returns points around what shows and the clip keeps. `per_world_unit`: extinctions are absolute.
+// Returns the points that the picture holds: of what shows and the clip keeps, or of the data's box
+// if it is drawn. `per_world_unit`: extinctions are absolute.
 std::vector<glm::dvec3> points_to_fit(const Scene& scene, const Field& field, bool per_world_unit) {
-    const TransferFunction& transfer_function = *scene.transfer_function;
-=======
-// Returns the points that the picture holds: of what shows, or of the data's box if it is drawn.
-std::vector<glm::dvec3> points_to_fit(const Scene& scene, const Field& field) {
     const TransferFunction& function = *scene.transfer_function;
-    std::vector<glm::dvec3> points;
-    if (!scene.annotations.box)
-        points = field.shown_points(function, seen_share * largest_extinction(function));
-    if (!points.empty()) return points;
->>>>>>> 2971baa3466ef2cfa1cb6b46718a5fa1314bc71f
     const auto corners = field.corners();
     const double diagonal = glm::distance(corners.front(), corners.back());
-    const double least = seen_share * largest_extinction(transfer_function);
-    std::vector<glm::dvec3> points = field.shown_points(
-        transfer_function, per_world_unit ? std::min(least, seen_depth / diagonal) : least,
-        scene.clip);
+    double least = seen_share * largest_extinction(function);
+    if (per_world_unit) least = std::min(least, seen_depth / diagonal);
+    std::vector<glm::dvec3> points;
+    if (!scene.annotations.box) points = field.shown_points(function, least, scene.clip);
     if (!points.empty()) return points;
     return {corners.begin(), corners.end()};
 }
@@ -357,7 +348,6 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
     } else {
         change(*scene.transfer_function, adjustments.transfer, scene);
     }
-<<<<<<< HEAD
     if (adjustments.opacity) {
         chosen.reason = take_opacity(adjustments, *scene.transfer_function);
         chosen.per_world_unit = false;
@@ -366,14 +356,6 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
     if (chooses_camera)
         orientation = choose_camera(adjustments, field, chosen.per_world_unit, scene);
     else
-=======
-    if (chooses_camera) {
-        const PictureMargins margins =
-            annotation_margins(scene, annotated_data(field, scene.annotations.labels.has_value()));
-        scene.camera = fitted_camera(points_to_fit(scene, field), field.axes(), adjustments.turn,
-                                     scene.width, scene.height, adjustments.all_around, margins);
-    } else {
->>>>>>> 2971baa3466ef2cfa1cb6b46718a5fa1314bc71f
         scene.camera = turned(*scene.camera, adjustments.turn);
     if (chooses_function || adjustments.opacity) {
         if (!chosen.per_world_unit) take_density(field, scene);
