@@ -92,8 +92,10 @@ double median_depth(Scene scene, const TransferFunction& transfer_function,
 // Scales relative extinctions for median_opacity; not at all if no ray meets anything.
 void take_density(const Field& field, Scene& scene) {
     scene.transfer_function = per_diagonal(*scene.transfer_function, field);
+    Scene bare = scene;  // annotations change no density
+    bare.annotations = {};
     const double depth =
-        median_depth(scene, *scene.transfer_function, points_to_fit(scene, field, false), field);
+        median_depth(bare, *bare.transfer_function, points_to_fit(bare, field, false), field);
     if (depth > 0)
         scene.transfer_function =
             scene.transfer_function->attenuated(-std::log1p(-median_opacity) / depth);
