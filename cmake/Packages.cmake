@@ -38,7 +38,7 @@ lamina_package(lamina "volume renderer that says how wrong each picture is"
 slicing and by projected tetrahedra, and holds every picture against a
 reference tracer in double precision. This package has the program, its
 library and shipped scenes."
-    RECOMMENDS "libegl1, libegl-mesa0" SUGGESTS "lamina-view, lamina-tetrahedralize, python3-lamina, libosmesa6")
+    RECOMMENDS "libegl1, libegl-mesa0" SUGGESTS "ffmpeg, lamina-view, lamina-tetrahedralize, python3-lamina, libosmesa6")
 lamina_package(lamina-dev "headers of the volume renderer lamina"
 "Headers, CMake package and examples of lamina's library, for programs in
 C++20."

@@ -36,10 +36,11 @@ class Turntable(Sequence[Picture]):
         return self._pictures[index]
 
     def save(self, file: Path) -> None:
-        """Writes one ``.png`` that moves (APNG: browsers play it, other programs show its first picture)."""
+        """Writes one ``.apng`` or ``.png`` that moves (APNG: browsers play it, other programs show its first picture).
+        ``lamina render --turntable`` makes other films."""
         path = pathlib.Path(file)
-        if path.suffix != ".png":
-            raise ValueError(f"file: found {str(path)!r}, expected a name that ends in .png")
+        if path.suffix not in (".apng", ".png"):
+            raise ValueError(f"file: found {str(path)!r}, expected a name that ends in .apng or .png")
         write_file(path, self._repr_png_())
 
     def _repr_png_(self) -> bytes:

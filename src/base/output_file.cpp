@@ -283,16 +283,38 @@ void OwnFiles::expect_own(const std::vector<std::string>& names) const {
     }
 }
 
+void OwnFiles::write(const std::set<std::string>& lines) const {
+    AtomicFile file(folder_ / list_name);
+    file.write(std::string(first_line) + "\n");
+    for (const std::string& line : lines) file.write(line + "\n");
+    file.commit();
+}
+
 void OwnFiles::add(const std::vector<std::string>& names) const {
     make_folder(folder_);
     std::set<std::string> lines = listed();
     const std::size_t before = lines.size();
     for (const std::string& name : names) lines.insert(verb_ + ": " + name);
-    if (lines.size() == before) return;
-    AtomicFile file(folder_ / list_name);
-    file.write(std::string(first_line) + "\n");
-    for (const std::string& line : lines) file.write(line + "\n");
-    file.commit();
+    if (lines.size() != before) write(lines);
+}
+
+void OwnFiles::remove_all() const {
+    const std::string of_verb = verb_ + ": ";
+    std::set<std::string> others;
+    for (const std::string& line : listed()) {
+        if (!line.starts_with(of_verb)) {
+            others.insert(line);
+            continue;
+        }
+        const std::filesystem::path name = line.substr(of_verb.size());
+        // Another's list may name files elsewhere.
+        if (name == name.filename()) std::filesystem::remove(folder_ / name);
+    }
+    if (others.empty())
+        std::filesystem::remove(folder_ / list_name);
+    else
+        write(others);
+    if (std::filesystem::is_empty(folder_)) std::filesystem::remove(folder_);
 }
 
 }  // namespace lamina

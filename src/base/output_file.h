@@ -114,9 +114,13 @@ class OwnFiles {
     // Adds names to the list, and makes the folder if needed. Call it before the files are written:
     // a file not on the list is then never from this verb, even after a kill.
     void add(const std::vector<std::string>& names) const;
+    // Removes the files of the verb that are on the list and directly in the folder, the list if no
+    // other verb is on it, and the folder if nothing else is in it. Throws Error.
+    void remove_all() const;
 
   private:
     std::set<std::string> listed() const;  // lines of the list
+    void write(const std::set<std::string>& lines) const;
 
     std::filesystem::path folder_;
     std::string verb_;

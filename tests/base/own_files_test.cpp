@@ -62,5 +62,24 @@ TEST(OwnFiles, AnotherFileOfTheListsNameIsLeftAlone) {
     }
 }
 
+TEST(OwnFiles, RemovesWhatTheVerbWroteAndNothingElse) {
+    const TemporaryFolder folder;
+    const std::filesystem::path place = folder / "place";
+    const OwnFiles own(place, "render"), other(place, "study");
+    own.add({"a", "b", "absent", "../outside", "lies/below"});
+    other.add({"c"});
+    std::filesystem::create_directory(place / "lies");
+    for (const char* name : {"a", "b", "c", "d", "../outside", "lies/below"})
+        write_bytes_to(place / name, "1");
+    own.remove_all();
+    EXPECT_FALSE(std::filesystem::exists(place / "a") || std::filesystem::exists(place / "b"));
+    for (const char* name : {"c", "d", "../outside", "lies/below", OwnFiles::list_name})
+        EXPECT_TRUE(std::filesystem::exists(place / name)) << name;
+    std::filesystem::remove_all(place / "lies");
+    std::filesystem::remove(place / "d");
+    other.remove_all();
+    EXPECT_FALSE(std::filesystem::exists(place));
+}
+
 }  // namespace
 }  // namespace lamina

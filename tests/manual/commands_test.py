@@ -25,6 +25,9 @@ def main():
     if not data or ("xvfb-run" in text and not shutil.which("xvfb-run")):
         print("needs LAMINA_DATA, and xvfb where the page uses it")
         return NO_TOOL
+    if "ffmpeg" in text and not shutil.which("ffmpeg"):
+        print("needs ffmpeg")
+        return NO_TOOL
     environment = dict(os.environ, PATH=f"/usr/bin:{lamina.parent}:{os.environ['PATH']}", PYTHONPATH=str(module),
                        PYTHONDONTWRITEBYTECODE="1")
     with tempfile.TemporaryDirectory() as folder:

@@ -22,6 +22,8 @@
 #include "render/pipeline.h"
 #include "render_output.h"
 #include "render_stats.h"
+#include "scene_files/camera_path.h"
+#include "scene_files/scene_reader.h"
 #include "shared_options.h"
 #include "verbs.h"
 
@@ -158,7 +160,21 @@ struct ReadScene {
     Scene scene;
     nlohmann::json document;
     std::optional<DataSeries> series;
+    std::vector<Camera> cameras;  // of --path
 };
+
+// Returns the cameras of the frames along --path.
+std::vector<Camera> cameras_of(const RenderOptions& options) {
+    if (options.view.turn.azimuth != 0 || options.view.turn.elevation != 0 ||
+        options.view.zoom != 1)
+        throw UsageError("--path: expected neither --azimuth, --elevation nor --zoom beside it");
+    const CameraPath path = read_camera_path(options.output.path);
+    constexpr double most = 100000;
+    const double frames = path.seconds() * options.output.rate();
+    if (frames > most)
+        fail("{}: lasts {} frames, expected at most {}", options.output.path, frames, most);
+    return path.cameras(options.output.rate());
+}
 
 ReadScene read(const RenderOptions& options) {
     const Stage reading("scene");
@@ -169,6 +185,12 @@ ReadScene read(const RenderOptions& options) {
         read.series.emplace(named.file, time_range(*options.output.time));
         named.file = read.series->first_file();
         edit = [&](nlohmann::json& of_scene) { read.series->begin(of_scene); };
+    }
+    if (!options.output.path.empty()) {
+        read.cameras = cameras_of(options);
+        edit = [&](nlohmann::json& of_scene) {
+            if (of_scene.is_object()) of_scene["camera"] = camera_json(read.cameras.front());
+        };
     }
     read.scene = load_scene(named, settings_of(options.view), read.document, edit);
     if (read.series) read.series->check(read.scene);
@@ -185,7 +207,8 @@ PipelineOptions how_to_draw(const RenderOptions& options, const Scene& scene,
     how.context = context_choice(options.context);
     how.adjustments = adjustments_of(options.view, scene.color_space);
     how.adjustments.all_around = options.output.views > 1;
-    how.many_frames = options.output.frames > 0 || options.output.views > 0;
+    how.many_frames =
+        options.output.frames > 0 || options.output.views > 0 || !options.output.path.empty();
     how.count_fragments = !options.stats.empty();
     how.trace_plainly = options.plain;
     how.make_frames = extras.make_frames;
@@ -212,7 +235,7 @@ void run(const RenderOptions& options, const RenderExtras& extras) {
     restrict_instructions_as_asked();
     const auto say = [&](const std::string& text) { message(options, text); };
     const auto output =
-        open_output(options.output, {read.scene, how, watch, say},
+        open_output(options.output, {read.scene, how, watch, say, read.cameras},
                     read.series ? &*read.series : nullptr, {options.stats, options.profile});
     std::unique_ptr<OutputFile> stats_file;
     if (!options.stats.empty()) stats_file = open_named(options.stats);
@@ -236,7 +259,11 @@ void run(const RenderOptions& options, const RenderExtras& extras) {
         pipeline, statistics,
         {{"scene", scene_text}, {"plan", explanation}, {"software", "lamina " LAMINA_VERSION}});
     const std::int64_t clamped = statistics.picture.counts["clamped_pixels"];
-    if (clamped > 0) say(fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
+    if (clamped > 0) {
+        say(fmt::format("{} pixels {} and were clamped", clamped,
+                        scene.transparent ? "shine more than they cover, beyond straight alpha,"
+                                          : "lay outside 0..1"));
+    }
     if (stats_file) {
         nlohmann::ordered_json json = to_json(statistics, plan);
         if (extras.add_statistics) extras.add_statistics(json);

@@ -7,6 +7,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/profile.h"
+#include "film.h"
 #include "image/exr.h"
 #include "image/npy.h"
 #include "image/png.h"
@@ -118,12 +119,22 @@ void OutputOptions::check() const {
     if (views > 0 && output.empty()) throw UsageError("--turntable: expected -o FILE, too");
     if (time && (views > 0 || frames > 0))
         throw UsageError("--time: expected neither --turntable nor --frames beside it");
-    if (force && views == 0 && !time)
-        throw UsageError("--force: expected --turntable N or --time, too");
+    if (!path.empty() && output.empty()) throw UsageError("--path: expected -o FILE, too");
+    if (!path.empty() && (views > 0 || frames > 0 || time))
+        throw UsageError("--path: expected neither --turntable, --time nor --frames beside it");
+    if (force && !is_series())
+        throw UsageError("--force: expected --turntable N, --time or --path, too");
+    const bool film = is_film(output);
+    if (fps && !film && path.empty())
+        throw UsageError("--fps: expected --path FILE, or a film as in -o film.mp4, too");
+    if (resume && !film) throw UsageError("--resume: expected a film as in -o film.mp4, too");
+    if (resume && force) throw UsageError("--resume and --force: expected one of them");
     if (turn_by && frames == 0) throw UsageError("--turn-by: expected --frames N, too");
     if (warm_up > 0 && frames == 0) throw UsageError("--warm-up: expected --frames N, too");
     if (!format.empty() && output.empty()) throw UsageError("--format: expected -o -, too");
-    if (views > 0) {
+    if (film) {
+        Film::check(*this);
+    } else if (views > 0 || !path.empty()) {
         Turntable::check(*this);
     } else if (!output.empty() && time) {
         TimeSeries::check(*this);
@@ -135,7 +146,9 @@ void OutputOptions::check() const {
 void add_output_options(CLI::App& verb, OutputOptions& options) {
     constexpr int most_frames = 1000000, most_views = 100000;
     verb.add_option("-o,--output", options.output,
-                    "Picture to write: .exr, .png or .npy; - writes to stdout, for a pipe")
+                    "Picture to write: .exr, .png or .npy; - writes to stdout, for a pipe. Film of "
+                    "--turntable, --time or --path: .mp4, .webm or .gif, by the program ffmpeg, or "
+                    ".apng")
         ->option_text("FILE");
     verb.add_option("--format", options.format, "With -o -: png, exr or npy")
         ->option_text("png|exr|npy");
@@ -166,9 +179,19 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
             "in their name (head_%04d.nrrd), of a .pvd, or of a file with several times; all "
             "look as the first does, and those that are there from an earlier run are kept")
         ->option_text("FIRST:LAST[:STEP]");
-    verb.add_flag("--force", options.force,
-                  "With --turntable and --time: draw pictures that are there, too, and replace "
-                  "files that it did not write, but never one that it reads");
+    verb.add_option("--path", options.path,
+                    "Write views along a camera path (JSON: keyframes with times and cameras), "
+                    "--fps of them a second, as a film or as out_%04d.png")
+        ->option_text("FILE");
+    verb.add_option("--fps", options.fps, "Frames a second, of films and of --path; 25 by default")
+        ->check(CLI::Range(1, 240))
+        ->option_text("N");
+    verb.add_flag("--resume", options.resume,
+                  "Go on with a film that was stopped: keep the frames that are there");
+    verb.add_flag(
+        "--force", options.force,
+        "With --turntable, --time and --path: draw pictures that are there, too, and replace "
+        "files that it did not write, but never one that it reads");
 }
 
 std::int64_t write_picture(PictureFile& file, Pipeline& pipeline, const Image& picture,
@@ -181,13 +204,24 @@ std::int64_t write_picture(PictureFile& file, Pipeline& pipeline, const Image& p
     return scene.method == Method::trace ? write(pipeline.traced()->image) : write(picture);
 }
 
+std::unique_ptr<SeriesOutput> open_series(const OutputOptions& options, const OutputScene& scene,
+                                          const DataSeries* series,
+                                          const std::vector<std::filesystem::path>& read,
+                                          const std::vector<std::filesystem::path>& others) {
+    if (series != nullptr)
+        return std::make_unique<TimeSeries>(options, scene, *series, read, others);
+    return std::make_unique<Turntable>(options, scene, read, others);
+}
+
 std::unique_ptr<RenderOutput> open_output(const OutputOptions& options, const OutputScene& scene,
                                           const DataSeries* series,
                                           std::vector<std::filesystem::path> others) {
-    const std::vector<std::filesystem::path> read = files_of(scene.scene);
-    if (options.views > 0) return std::make_unique<Turntable>(options, scene, read, others);
-    if (series != nullptr && !options.output.empty())
-        return std::make_unique<TimeSeries>(options, scene, *series, read, others);
+    std::vector<std::filesystem::path> read = files_of(scene.scene);
+    if (!options.path.empty()) read.emplace_back(options.path);
+    if (is_film(options.output))
+        return std::make_unique<Film>(options, scene, series, read, std::move(others));
+    if (options.is_series() && !options.output.empty())
+        return open_series(options, scene, series, read, others);
     others.emplace_back(options.output);
     expect_different_files(read, others);
     if (options.output.empty()) return nullptr;

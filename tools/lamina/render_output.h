@@ -62,9 +62,15 @@ struct OutputOptions {
     double warm_up = 0;               // --warm-up, in seconds
     int views = 0;                    // --turntable; 0: none
     std::optional<std::string> time;  // --time
+    std::string path;                 // --path; empty: none
+    std::optional<int> fps;           // --fps
+    bool resume = false;              // --resume
     bool force = false;               // --force
 
     bool piped() const;
+    int rate() const { return fps.value_or(25); }  // frames a second of a film
+    // Returns true if the pictures' file names are numbered: there is one for each of several.
+    bool is_series() const { return views > 0 || time || !path.empty(); }
     void check() const;  // throws UsageError if options contradict one another
 };
 
@@ -74,8 +80,10 @@ void add_output_options(CLI::App& verb, OutputOptions& options);
 struct OutputScene {
     const Scene& scene;  // as read
     const PipelineOptions& how;
-    const Stopwatch& watch;                       // started with the program
-    std::function<void(const std::string&)> say;  // prints a message for the user
+    const Stopwatch& watch;                            // started with the program
+    std::function<void(const std::string&)> say;       // prints a message for the user
+    std::vector<Camera> cameras = {};                  // of --path; empty: none
+    const char* goes_on = "the same command goes on";  // what to do after an interrupt
 };
 
 // Writes the pictures of one `lamina render`.
@@ -88,6 +96,14 @@ class RenderOutput {
                              PictureAttributes attributes) = 0;
 };
 
+// Writes a series of pictures, from which a film can be made.
+class SeriesOutput : public RenderOutput {
+  public:
+    virtual std::vector<std::filesystem::path> pictures() const = 0;  // in their order
+    // Removes the pictures and what was kept about them, and the folder if nothing else is in it.
+    virtual void remove_all() const = 0;
+};
+
 // Writes the picture that the pipeline drew last: `picture`, or the tracer's in double precision.
 // Returns the number of clamped pixels.
 std::int64_t write_picture(PictureFile& file, Pipeline& pipeline, const Image& picture,
@@ -96,6 +112,10 @@ std::int64_t write_picture(PictureFile& file, Pipeline& pipeline, const Image& p
 // Opens the output, so that paths that cannot be written fail at once; returns null if there is
 // none. `others`: further files that are written. Throws UsageError if the scene reads one of the
 // written files. `series`: the steps of --time, or null; it must outlive the output.
+std::unique_ptr<SeriesOutput> open_series(const OutputOptions& options, const OutputScene& scene,
+                                          const DataSeries* series,
+                                          const std::vector<std::filesystem::path>& read,
+                                          const std::vector<std::filesystem::path>& others);
 std::unique_ptr<RenderOutput> open_output(const OutputOptions& options, const OutputScene& scene,
                                           const DataSeries* series,
                                           std::vector<std::filesystem::path> others);

@@ -39,10 +39,11 @@ std::string directive_at(const std::string& pattern, std::size_t at) {
 
 using Hashes = std::map<std::string, std::string>;
 
-// Returns the hashes in the record, or nothing if the document is not a record of this key.
-Hashes hashes_in(const nlohmann::json& document, const std::string& key) {
-    if (!document.is_object() || document.value("key", nlohmann::json()) != nlohmann::json(key))
-        return {};
+bool is_record(const nlohmann::json& document, const std::string& key) {
+    return document.is_object() && document.value("key", nlohmann::json()) == nlohmann::json(key);
+}
+
+Hashes hashes_in(const nlohmann::json& document) {
     const nlohmann::json frames = document.value("frames", nlohmann::json::object());
     Hashes hashes;
     for (const auto& [name, hash] : frames.items()) {
@@ -102,10 +103,21 @@ SeriesRecord::SeriesRecord(std::filesystem::path file, std::string key)
     : file_(std::move(file)), key_(std::move(key)) {
     if (!std::filesystem::exists(file_)) return;
     try {
-        hashes_ = hashes_in(load_json(file_), key_);
+        const nlohmann::json document = load_json(file_);
+        matches_ = is_record(document, key_);
+        if (matches_) hashes_ = hashes_in(document);
     } catch (const Error&) {
-        hashes_.clear();  // everything is drawn again
+        matches_ = false;  // everything is drawn again
+        hashes_.clear();
     }
+}
+
+void SeriesRecord::expect_match() const {
+    if (matches_) return;
+    fail(
+        "{}: its frames are of another scene, data, options or program than --resume asks for: "
+        "expected equal ones, or --force to draw all frames anew",
+        file_.string());
 }
 
 bool SeriesRecord::has(const std::string& name, const std::string& input) const {

@@ -40,6 +40,8 @@ class SeriesRecord {
     // cannot be read, counts as empty.
     SeriesRecord(std::filesystem::path file, std::string key);
 
+    // Throws Error if there is a record of another key, or one that cannot be read.
+    void expect_match() const;
     // Returns true if the picture exists, unchanged since it was recorded, with the same input.
     bool has(const std::string& name, const std::string& input = "") const;
     // Adds a picture that is written. `input`: hash of the input that only this picture depends on.
@@ -50,6 +52,7 @@ class SeriesRecord {
   private:
     std::filesystem::path file_;
     std::string key_;
+    bool matches_ = true;
     std::map<std::string, std::string> hashes_;  // "FILE_HASH INPUT_HASH" of each file
     Stopwatch since_written_;
 };

@@ -37,6 +37,7 @@ TimeSeries::TimeSeries(const OutputOptions& options, const OutputScene& scene,
                        const std::vector<std::filesystem::path>& others)
     : names_(options.output),
       format_(picture_format(names_.name(0), options.format)),
+      resume_(options.resume),
       force_(options.force),
       scene_(scene),
       series_(series) {
@@ -57,6 +58,16 @@ std::vector<std::string> TimeSeries::names() const {
     for (const std::int64_t step : series_.steps()) names.push_back(name_at(step));
     names.push_back(names_.record_name(series_word));
     return names;
+}
+
+std::vector<std::filesystem::path> TimeSeries::pictures() const {
+    std::vector<std::filesystem::path> pictures;
+    for (const std::int64_t step : series_.steps()) pictures.push_back(path_of(name_at(step)));
+    return pictures;
+}
+
+void TimeSeries::remove_all() const {
+    OwnFiles(folder(), series_verb).remove_all();
 }
 
 // Returns a hash of the input that all pictures share; input_of() hashes the rest.
@@ -179,6 +190,7 @@ std::string TimeSeries::draw(Pipeline& pipeline, RunStatistics& run, PictureAttr
     attributes["renderer"] = pipeline.statistics().renderer;
     attributes["scene"] = json_text(scene_json(pipeline.resolved_scene()), 2);
     SeriesRecord record(path_of(names_.record_name(series_word)), key_of(attributes));
+    if (resume_) record.expect_match();
     const std::vector<std::int64_t> steps = missing(record);
     run.picture.counts["clamped_pixels"] = 0;
     const auto all = static_cast<std::int64_t>(series_.steps().size());
@@ -193,9 +205,9 @@ std::string TimeSeries::draw(Pipeline& pipeline, RunStatistics& run, PictureAttr
     } catch (const Interrupted&) {
         const ClientScope scope(finishing_client());
         record.write();
-        throw Interrupted(
-            fmt::format("interrupted: {} of {} steps are there; the same command goes on",
-                        all - static_cast<std::int64_t>(missing(record).size()), all));
+        throw Interrupted(fmt::format("interrupted: {} of {} steps are there; {}",
+                                      all - static_cast<std::int64_t>(missing(record).size()), all,
+                                      scene_.goes_on));
     }
     record.write();
     run.picture.counts["kept_views"] = kept;

@@ -15,7 +15,7 @@ namespace lamina {
 // Pictures of `render --time`: one for each step of the data, with the transfer function, camera
 // and settings chosen for the first step. While a step is drawn, the next one is read. Pictures
 // that an earlier run made from the same scene and data are kept.
-class TimeSeries : public RenderOutput {
+class TimeSeries : public SeriesOutput {
   public:
     // Throws UsageError if the options give no file names or no format.
     static void check(const OutputOptions& options);
@@ -26,6 +26,8 @@ class TimeSeries : public RenderOutput {
                const std::vector<std::filesystem::path>& others);
 
     std::string draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes attributes) override;
+    std::vector<std::filesystem::path> pictures() const override;
+    void remove_all() const override;
 
   private:
     // A step that was read ahead.
@@ -50,7 +52,7 @@ class TimeSeries : public RenderOutput {
 
     FrameNames names_;
     PictureFormat format_;
-    bool force_;
+    bool resume_, force_;
     OutputScene scene_;
     const DataSeries& series_;
 };

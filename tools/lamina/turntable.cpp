@@ -16,9 +16,6 @@
 namespace lamina {
 namespace {
 
-constexpr const char* turntable_verb = "render --turntable";
-constexpr const char* turntable_word = "turntable";
-
 // Returns a hash of everything that the pictures depend on.
 std::string key_of(const OutputScene& of, const PictureAttributes& attributes, int views) {
     ContentHash hash;
@@ -31,6 +28,7 @@ std::string key_of(const OutputScene& of, const PictureAttributes& attributes, i
     for (const std::string& name : of.how.omissions.kept) hash.add(name);
     hash.add(std::string_view(git_commit));
     hash.add(static_cast<double>(views));
+    for (const Camera& camera : of.cameras) hash.add(json_text(camera_json(camera)));
     return hash.hex();
 }
 
@@ -52,23 +50,42 @@ Turntable::Turntable(const OutputOptions& options, const OutputScene& scene,
                      const std::vector<std::filesystem::path>& others)
     : names_(options.output),
       format_(picture_format(names_.name(0), options.format)),
-      views_(options.views),
+      views_(scene.cameras.empty() ? options.views : static_cast<int>(scene.cameras.size())),
+      resume_(options.resume),
       force_(options.force),
-      scene_(scene) {
+      scene_(scene),
+      verb_(scene.cameras.empty() ? "render --turntable" : "render --path"),
+      word_(scene.cameras.empty() ? "turntable" : "path") {
     std::vector<std::filesystem::path> written = others;
     for (const std::string& name : names()) written.push_back(path_of(name));
     expect_different_files(read, written);
-    expect_own_folder(folder(), turntable_verb, names(), read, force_);
+    expect_own_folder(folder(), verb_, names(), read, force_);
     // Fails at once if the folder cannot be written.
     if (std::filesystem::exists(folder()))
-        const AtomicFile unused(path_of(names_.record_name(turntable_word)));
+        const AtomicFile unused(path_of(names_.record_name(word_)));
 }
 
 std::vector<std::string> Turntable::names() const {
     std::vector<std::string> names;
     for (int view = 0; view < views_; ++view) names.push_back(names_.name(view));
-    names.push_back(names_.record_name(turntable_word));
+    names.push_back(names_.record_name(word_));
     return names;
+}
+
+std::vector<std::filesystem::path> Turntable::pictures() const {
+    std::vector<std::filesystem::path> pictures;
+    for (int view = 0; view < views_; ++view) pictures.push_back(path_of(names_.name(view)));
+    return pictures;
+}
+
+void Turntable::remove_all() const {
+    OwnFiles(folder(), verb_).remove_all();
+}
+
+// Returns the camera of a view. `own`: the scene's.
+Camera Turntable::camera_of(const Camera& own, int view) const {
+    if (!scene_.cameras.empty()) return scene_.cameras[static_cast<std::size_t>(view)];
+    return view == 0 ? own : turned(own, 360.0 * view / views_);
 }
 
 std::vector<int> Turntable::missing(const SeriesRecord& record) const {
@@ -90,7 +107,7 @@ void Turntable::draw_missing(const std::vector<int>& views, SeriesRecord& record
     for (const int view : views) {
         check_interrupt();
         const std::string name = names_.name(view);
-        const Camera camera = view == 0 ? own : turned(own, 360.0 * view / views_);
+        const Camera camera = camera_of(own, view);
         PictureFile picture(path_of(name), format_);
         pipeline.set_camera(camera);
         if (view == views.front())
@@ -109,10 +126,10 @@ void Turntable::draw_missing(const std::vector<int>& views, SeriesRecord& record
 }
 
 std::string Turntable::draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes attributes) {
-    OwnFiles(folder(), turntable_verb).add(names());
+    OwnFiles(folder(), verb_).add(names());
     attributes["renderer"] = pipeline.statistics().renderer;
-    SeriesRecord record(path_of(names_.record_name(turntable_word)),
-                        key_of(scene_, attributes, views_));
+    SeriesRecord record(path_of(names_.record_name(word_)), key_of(scene_, attributes, views_));
+    if (resume_) record.expect_match();
     const std::vector<int> views = missing(record);
     try {
         draw_missing(views, record, pipeline, run, attributes);
@@ -120,10 +137,8 @@ std::string Turntable::draw(Pipeline& pipeline, RunStatistics& run, PictureAttri
         const ClientScope scope(finishing_client());
         record.write();
         const auto missing_now = static_cast<int>(missing(record).size());
-        throw Interrupted(
-            fmt::format("interrupted: {} of {} views are there; the same command "
-                        "goes on",
-                        views_ - missing_now, views_));
+        throw Interrupted(fmt::format("interrupted: {} of {} views are there; {}",
+                                      views_ - missing_now, views_, scene_.goes_on));
     }
     record.write();
     const int drawn = static_cast<int>(views.size()), kept = views_ - drawn;
