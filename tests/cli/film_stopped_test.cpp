@@ -59,6 +59,19 @@ TEST_F(FilmStopped, MistakesAreFoundBeforeAnyFrameIsDrawn) {
     EXPECT_FALSE(exists("film.apng.frames"));
 }
 
+// Highlights add light without covering more.
+TEST_F(FilmStopped, LightThatStraightAlphaCannotHoldIsCounted) {
+    json scene = gaussians_scene(16, 48, 36, 40);
+    scene["lighting"] = {{"specular", 5}};
+    write_scene(scene);
+    const ProgramResult result = render("v.png", {"--transparent"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.err.find("pixels shine more than they cover, beyond straight alpha, and were"),
+              std::string::npos)
+        << result.err;
+    EXPECT_EQ(read_png(folder / "v.png").channels, 4);
+}
+
 TEST_F(FilmStopped, WithoutFfmpegItSaysWhatToInstall) {
     std::filesystem::create_directory(folder / "empty");
     const auto without = [path = (folder / "empty").string()] { setenv("PATH", path.c_str(), 1); };

@@ -165,9 +165,12 @@ struct ReadScene {
 
 // Returns the cameras of the frames along --path.
 std::vector<Camera> cameras_of(const RenderOptions& options) {
-    if (options.view.turn.azimuth != 0 || options.view.turn.elevation != 0 ||
-        options.view.zoom != 1)
-        throw UsageError("--path: expected neither --azimuth, --elevation nor --zoom beside it");
+    const Words& words = options.view.words;
+    if (words.azimuth != 0 || words.elevation != 0 || words.zoom != 1 || !words.up.empty() ||
+        !words.view.empty()) {
+        throw UsageError(
+            "--path: expected none of --azimuth, --elevation, --zoom, --up and --view beside it");
+    }
     const CameraPath path = read_camera_path(options.output.path);
     constexpr double most = 100000;
     const double frames = path.seconds() * options.output.rate();
@@ -259,7 +262,11 @@ void run(const RenderOptions& options, const RenderExtras& extras) {
         pipeline, statistics,
         {{"scene", scene_text}, {"plan", explanation}, {"software", "lamina " LAMINA_VERSION}});
     const std::int64_t clamped = statistics.picture.counts["clamped_pixels"];
-    if (clamped > 0) say(fmt::format("{} pixels lay outside 0..1 and were clamped", clamped));
+    if (clamped > 0) {
+        say(fmt::format("{} pixels {} and were clamped", clamped,
+                        scene.transparent ? "shine more than they cover, beyond straight alpha,"
+                                          : "lay outside 0..1"));
+    }
     if (stats_file) {
         nlohmann::ordered_json json = to_json(statistics, plan);
         if (extras.add_statistics) extras.add_statistics(json);
