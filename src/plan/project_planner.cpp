@@ -229,7 +229,15 @@ struct ProjectPlanner {
         plan.draw_transparent = !left_out && facts.non_finite == 0;
     }
 
+    // Tells whether a compute shader of OpenGL composites codes; it finds all faces in double.
+    bool computes_codes() const {
+        const bool dithered =
+            is_fixed_point(*scene.target) && settings.dither == ProjectDither::after_blend;
+        return !capabilities.cpu && (scene.target == Target::emulated || dithered);
+    }
+
     bool choose_precision(bool fan) {
+        if (computes_codes()) return fan || facts.tets >= fewest_plain_tets;
         return omissions.leave_out(
                    !fan && facts.tets >= fewest_plain_tets, "double_precision",
                    fmt::format("{} tets: only where a face is seen nearly edge-on are faces "

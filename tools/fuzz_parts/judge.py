@@ -286,8 +286,20 @@ class Judge:
                        ": " + ", ".join(sorted(names)))
 
     # Projected tetrahedra.
+    def coded_tets(self, drawn, plan):
+        """Codes of OpenGL are those of the cpu engine, except beside a border between two."""
+        cpu = self.program.render("codes_of_cpu", ["--context", "cpu"] + self.made.arguments[2:])
+        if cpu is None:
+            return
+        codes = 2 ** plan["emulate"]["bits"] - 1 if "emulate" in plan else 0.5 / CODES[plan["target"]]
+        error = numpy.quantile(numpy.abs(drawn.picture - cpu.picture), 0.99)
+        self.check("coded", error, 2 / codes, f" in all but a hundredth, by {plan['source']}")
+
     def tets(self, drawn, traced):
         plan = drawn.stats["plan"]
+        on_codes = "emulate" in plan or plan["dither"] == "after_blend"
+        if on_codes and not drawn.stats["context"].startswith("cpu"):
+            self.coded_tets(drawn, plan)
         triangles = plan["geometry"] == "triangles"
         # In float32 the scalars of triangles that begin at the eye keep few digits of a narrow window.
         touched = self.made.labels["camera"].split()[0] in ("inside", "face", "edge", "corner")
