@@ -7,13 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "annotation/layout.h"
 #include "lamina/image.h"
 #include "lamina/scene.h"
 #include "lamina/volume.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
+
+// Room at the edges of a picture that an automatic camera leaves to annotations, in pixels.
+struct PictureMargins {
+    double left = 0, right = 0, top = 0, bottom = 0;
+};
 
 // Properties of data that annotations tell.
 struct AnnotatedData {

@@ -37,7 +37,7 @@ struct Part {
     int width() const { return right - left; }
 };
 
-Part part_of(const Path& path, int width, int height) {
+Part part_of(const Outline& path, int width, int height) {
     glm::dvec2 least(INFINITY), most(-INFINITY);
     for (const auto& contour : path.contours()) {
         for (const glm::dvec2& point : contour) {
@@ -135,7 +135,7 @@ class Areas {
 
 }  // namespace
 
-void Path::curve_to(const glm::dvec2& control, const glm::dvec2& end) {
+void Outline::curve_to(const glm::dvec2& control, const glm::dvec2& end) {
     const glm::dvec2 start = contours_.back().back();
     // A curve is at most |start - 2 control + end| / 8 away from its chord; n pieces divide that
     // by n^2.
@@ -147,8 +147,8 @@ void Path::curve_to(const glm::dvec2& control, const glm::dvec2& end) {
     }
 }
 
-Path path_of(const Rectangle& r) {
-    Path path;
+Outline outline_of(const Rectangle& r) {
+    Outline path;
     path.move_to({r.left, r.top});
     path.line_to({r.left, r.bottom()});
     path.line_to({r.right(), r.bottom()});
@@ -156,12 +156,12 @@ Path path_of(const Rectangle& r) {
     return path;
 }
 
-Path line_path(const glm::dvec2& a, const glm::dvec2& b, double thickness) {
+Outline line_outline(const glm::dvec2& a, const glm::dvec2& b, double thickness) {
     const double length = glm::length(b - a);
     const glm::dvec2 along =
         length > 0 ? (0.5 * thickness / length) * (b - a) : glm::dvec2(0.5 * thickness, 0);
     const glm::dvec2 across(-along.y, along.x);
-    Path path;
+    Outline path;
     path.move_to(a - across);
     path.line_to(b - across);
     path.line_to(b + across);
@@ -169,14 +169,14 @@ Path line_path(const glm::dvec2& a, const glm::dvec2& b, double thickness) {
     return path;
 }
 
-Path disk_path(const glm::dvec2& center, double radius) {
+Outline disk_outline(const glm::dvec2& center, double radius) {
     // Curves through the middles of the edges of a regular octagon around the circle; sqrt(2) - 1
     // is half an edge.
     const double half = (std::sqrt(2.0) - 1) * radius;
     const glm::dvec2 corners[] = {{radius, half},  {half, radius},   {-half, radius},
                                   {-radius, half}, {-radius, -half}, {-half, -radius},
                                   {half, -radius}, {radius, -half}};
-    Path path;
+    Outline path;
     path.move_to(center + 0.5 * (corners[7] + corners[0]));
     for (int i = 0; i < 8; ++i)
         path.curve_to(center + corners[i], center + 0.5 * (corners[i] + corners[(i + 1) % 8]));
@@ -188,7 +188,7 @@ Canvas::Canvas(int width, int height, ImageColorSpace space)
     layer_->space = space;
 }
 
-void Canvas::fill(const Path& path, const Paint& paint) {
+void Canvas::fill(const Outline& path, const Paint& paint) {
     const Part part = part_of(path, width(), height());
     if (part.left >= part.right || part.top >= part.bottom) return;
     Areas areas(part, areas_);

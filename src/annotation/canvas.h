@@ -15,7 +15,7 @@
 namespace lamina {
 
 // Closed polygons; x to the right and y down, in pixels from the picture's upper left corner.
-class Path {
+class Outline {
   public:
     void move_to(const glm::dvec2& point) { contours_.push_back({point}); }
     void line_to(const glm::dvec2& point) { contours_.back().push_back(point); }
@@ -34,11 +34,11 @@ struct Rectangle {
     double bottom() const { return top + height; }
 };
 
-Path path_of(const Rectangle& rectangle);
+Outline outline_of(const Rectangle& rectangle);
 // Returns the outline of a straight line from `a` to `b` with square ends.
-Path line_path(const glm::dvec2& a, const glm::dvec2& b, double thickness);
+Outline line_outline(const glm::dvec2& a, const glm::dvec2& b, double thickness);
 // Returns the outline of an ellipse, of 48 edges: of a disk if both radii are equal.
-Path disk_path(const glm::dvec2& center, double radius);
+Outline disk_outline(const glm::dvec2& center, double radius);
 
 // Colour in the picture's space, not associated.
 struct Paint {
@@ -60,10 +60,12 @@ class Canvas {
 
     // Lays a shape over the picture. Parts outside of it are cut off. Where contours overlap,
     // orientations add up: holes are the other way round.
-    void fill(const Path& path, const Paint& paint);
-    void fill(const Rectangle& rectangle, const Paint& paint) { fill(path_of(rectangle), paint); }
+    void fill(const Outline& path, const Paint& paint);
+    void fill(const Rectangle& rectangle, const Paint& paint) {
+        fill(outline_of(rectangle), paint);
+    }
     void line(const glm::dvec2& a, const glm::dvec2& b, double thickness, const Paint& paint) {
-        fill(line_path(a, b, thickness), paint);
+        fill(line_outline(a, b, thickness), paint);
     }
 
     std::shared_ptr<const Image> take() { return std::move(layer_); }

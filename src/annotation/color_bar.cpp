@@ -123,7 +123,7 @@ void Bar::draw_curve(Pen& pen, const glm::dvec2& at) const {
         const double most = opacity(next, here), then = opacity(next, next);
         if (most > std::max(now, then)) curve.push_back(place(most, top + row + 0.5));
     }
-    Path area;
+    Outline area;
     area.move_to(place(0, top));
     for (const glm::dvec2& point : curve) area.line_to(point);
     area.line_to(place(0, top + rows));

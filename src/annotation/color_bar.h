@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "annotation/annotation_layer.h"
+#include "annotation/layout.h"
 
 namespace lamina {
 

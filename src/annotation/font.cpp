@@ -129,8 +129,8 @@ double Font::width(std::string_view text, double size) {
     return units * size / library_->units();
 }
 
-Path Font::outlines(std::string_view text, const glm::dvec2& start, double size) {
-    Path path;
+Outline Font::outlines(std::string_view text, const glm::dvec2& start, double size) {
+    Outline path;
     const double scale = size / library_->units();
     glm::dvec2 pen = start;
     for (const char32_t character : drawn_characters(text)) {

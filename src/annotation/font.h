@@ -40,7 +40,7 @@ class Font {
 
     // Returns the outlines of a line of text that begins at `start`, on its base line. Bytes that
     // are no UTF-8 become U+FFFD.
-    Path outlines(std::string_view text, const glm::dvec2& start, double size);
+    Outline outlines(std::string_view text, const glm::dvec2& start, double size);
 
     // Returns the characters that the font lacked so far; a box stands for each.
     const std::vector<char32_t>& missing() const { return missing_; }

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "annotation/annotation_layer.h"
 #include "annotation/canvas.h"
 #include "annotation/font.h"
 #include "lamina/annotations.h"
@@ -70,11 +71,6 @@ struct Block {
     glm::dvec2 size{0};      // pixels
     bool makes_room = true;  // an automatic camera leaves room for it
     std::function<void(Pen&, const glm::dvec2& top_left)> draw;
-};
-
-// Room at the edges of a picture that an automatic camera leaves to annotations, in pixels.
-struct PictureMargins {
-    double left = 0, right = 0, top = 0, bottom = 0;
 };
 
 // Sets blocks to their places: those of one place stand below each other, in their order.

@@ -59,7 +59,7 @@ void draw_arrow(Pen& pen, const glm::dvec2& origin, const Arrow& arrow, double e
     if (length > least) {
         const double head = std::min(0.7 * em, 0.6 * length), half = 0.45 * head;
         const glm::dvec2 neck = origin + (length - head) * along;
-        Path path;  // shaft and head are one shape, so that they do not darken each other
+        Outline path;  // shaft and head are one shape, so that they do not darken each other
         path.move_to(origin - 0.5 * t * across);
         path.line_to(neck - 0.5 * t * across);
         path.line_to(neck - half * across);
@@ -69,7 +69,7 @@ void draw_arrow(Pen& pen, const glm::dvec2& origin, const Arrow& arrow, double e
         path.line_to(origin + 0.5 * t * across);
         pen.canvas().fill(path, paint);
     } else {
-        pen.canvas().fill(disk_path(origin, 0.22 * em), paint);
+        pen.canvas().fill(disk_outline(origin, 0.22 * em), paint);
     }
     const glm::dvec2 beside = length > least ? along : glm::dvec2(0.7, 0.7);
     const glm::dvec2 place = origin + arrow.tip + 0.75 * em * beside;

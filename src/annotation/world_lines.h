@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "annotation/annotation_layer.h"
+#include "annotation/layout.h"
 
 namespace lamina {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "annotation/layout.h"
+#include "annotation/annotation_layer.h"
 #include "choice/automatic_transfer.h"
 #include "choice/field.h"
 #include "choice/opacity_presets.h"

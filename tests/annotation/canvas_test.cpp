@@ -18,7 +18,7 @@ double area_of(const Image& layer) {
     return area;
 }
 
-std::shared_ptr<const Image> filled(const Path& path, ImageColorSpace space = {}) {
+std::shared_ptr<const Image> filled(const Outline& path, ImageColorSpace space = {}) {
     Canvas canvas(32, 24, space);
     canvas.fill(path, white);
     return canvas.take();
@@ -28,7 +28,7 @@ std::shared_ptr<const Image> filled(const Path& path, ImageColorSpace space = {}
 constexpr double rounding = 768 * 0x1p-25;
 
 TEST(Canvas, CoversAPixelByTheAreaOfARectangleInIt) {
-    const auto layer = filled(path_of({3.25, 2.5, 4.5, 3}));
+    const auto layer = filled(outline_of({3.25, 2.5, 4.5, 3}));
     EXPECT_FLOAT_EQ(layer->pixel(3, 2)[3], 0.75f * 0.5f);
     EXPECT_EQ(layer->pixel(4, 3)[3], 1);
     EXPECT_FLOAT_EQ(layer->pixel(7, 3)[3], 0.75f);
@@ -37,7 +37,7 @@ TEST(Canvas, CoversAPixelByTheAreaOfARectangleInIt) {
 }
 
 TEST(Canvas, CoversTheAreaOfATriangle) {
-    Path path;
+    Outline path;
     path.move_to({1.3, 2.1});
     path.line_to({28.9, 7.7});
     path.line_to({9.2, 21.4});
@@ -46,16 +46,16 @@ TEST(Canvas, CoversTheAreaOfATriangle) {
 }
 
 TEST(Canvas, CutsOffWhatLiesOutside) {
-    const auto layer = filled(path_of({-5, -5, 8.5, 100}));
+    const auto layer = filled(outline_of({-5, -5, 8.5, 100}));
     EXPECT_NEAR(area_of(*layer), 3.5 * 24, rounding);
     EXPECT_EQ(layer->pixel(0, 0)[3], 1);
-    EXPECT_EQ(area_of(*filled(path_of({40, 3, 5, 5}))), 0);
-    EXPECT_EQ(area_of(*filled(path_of({-40, 3, 5, 5}))), 0);
-    EXPECT_NEAR(area_of(*filled(path_of({-1e6, 3, 2e6, 5}))), 32 * 5, rounding);
+    EXPECT_EQ(area_of(*filled(outline_of({40, 3, 5, 5}))), 0);
+    EXPECT_EQ(area_of(*filled(outline_of({-40, 3, 5, 5}))), 0);
+    EXPECT_NEAR(area_of(*filled(outline_of({-1e6, 3, 2e6, 5}))), 32 * 5, rounding);
 }
 
 TEST(Canvas, ContoursTheOtherWayRoundAreHoles) {
-    Path path = path_of({2, 2, 10, 10});
+    Outline path = outline_of({2, 2, 10, 10});
     path.move_to({4, 4});
     path.line_to({10, 4});
     path.line_to({10, 10});
@@ -71,11 +71,11 @@ TEST(Canvas, ContoursTheOtherWayRoundAreHoles) {
 TEST(Canvas, ADiskHasItsArea) {
     const double radius = 9.3;
     const double area = std::numbers::pi * radius * radius;
-    EXPECT_NEAR(area_of(*filled(disk_path({15.2, 11.9}, radius))), area, 0.012 * area);
+    EXPECT_NEAR(area_of(*filled(disk_outline({15.2, 11.9}, radius))), area, 0.012 * area);
 }
 
 TEST(Canvas, ALineHasItsLengthAndThickness) {
-    const auto layer = filled(line_path({3, 4}, {23, 19}, 1.5));
+    const auto layer = filled(line_outline({3, 4}, {23, 19}, 1.5));
     EXPECT_NEAR(area_of(*layer), 25 * 1.5, rounding);  // 20, 15, 25 are a right triangle's
 }
 

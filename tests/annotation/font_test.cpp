@@ -43,7 +43,7 @@ TEST(Font, IsDejaVuSans) {
 TEST(Font, CapitalsStandOnTheBaseLineAndHaveTheirHeight) {
     Font font;
     double low = -INFINITY, high = INFINITY;
-    const Path outlines = font.outlines("H", {5, 40}, 30);
+    const Outline outlines = font.outlines("H", {5, 40}, 30);
     for (const auto& contour : outlines.contours()) {
         for (const glm::dvec2& point : contour) {
             low = std::max(low, point.y);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "annotation/annotation_layer.h"
+#include "annotation/layout.h"
 #include "image/coded_image.h"
 #include "mesh/predicates.h"
 #include "support/expect_error.h"

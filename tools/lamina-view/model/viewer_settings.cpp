@@ -73,7 +73,8 @@ namespace fs = std::filesystem;
 }  // namespace
 
 bool may_be_absent(const SettingNode& node) {
-    constexpr std::array<std::string_view, 8> paths{"lighting",
+    constexpr std::array<std::string_view, 9> paths{"lighting",
+                                                    "image.annotations",
                                                     "clip.box",
                                                     "mesh",
                                                     "render.slice.dither",
@@ -82,7 +83,8 @@ bool may_be_absent(const SettingNode& node) {
                                                     "render.project.table",
                                                     "render.project.tree"};
     return (node.kind == SettingKind::group || node.kind == SettingKind::either) &&
-           std::ranges::find(paths, node.path) != paths.end();
+           (std::ranges::find(paths, node.path) != paths.end() ||
+            node.path.starts_with("image.annotations."));
 }
 
 Json starting_value(const SettingNode& node, const std::string& path, const Scene& scene,
@@ -98,6 +100,11 @@ Json starting_value(const SettingNode& node, const std::string& path, const Scen
     if (node.path == "lighting.lights[]") return Json::object();
     if (node.path == "render.slice.tree") return {{"factors", {32, 32}}};
     if (node.path == "render.project.tree") return {{"factors", {32}}, {"nodes", "fixed"}};
+    if (node.path == "image.annotations") return {{"colorbar", true}};
+    if (node.path == "image.annotations.title" || node.path == "image.annotations.texts[]")
+        return {{"text", "Text"}};
+    if (node.kind == SettingKind::either && node.path.starts_with("image.annotations."))
+        return Json::object();
     if (node.path == "volume") return {{"generate", "gaussians"}};
     if (!node.otherwise.is_null() && node.otherwise != node.automatic_word) return node.otherwise;
     return of_kind(node);
