@@ -94,10 +94,11 @@ inline Image project(const SceneMesh& mesh, const Scene& scene, const Capabiliti
 
 inline Image trace(const SceneMesh& mesh, const Scene& scene) {
     const FaceTree tree(mesh.mesh, mesh.mesh.open_faces());
-    return to_float(trace_mesh(mesh.mesh, tree, mesh.scalar.values, *scene.transfer_function,
-                               View(*scene.camera, scene.width, scene.height),
-                               {.lighting = scene.lighting, .clip = half_spaces(scene.clip)})
-                        .image);
+    return to_float(
+        trace_mesh(mesh.mesh, tree, mesh.scalar.values, *scene.transfer_function,
+                   View(*scene.camera, scene.width, scene.height),
+                   {.lighting = copied_lighting(scene.lighting), .clip = half_spaces(scene.clip)})
+            .image);
 }
 
 // Returns a random unit vector.
