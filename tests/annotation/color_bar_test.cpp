@@ -40,7 +40,7 @@ struct DrawnBar {
         picture = Image(scene.width, scene.height);
         picture.space = scene.color_space;
         picture.annotations = canvas.take();
-        codes = png_codes(picture, scene.background, scene.color_space);
+        codes = coded_picture("bar", picture, scene.background, scene.color_space).codes.codes;
     }
 
     std::uint16_t code(double column, double row, int channel) const {
@@ -56,7 +56,7 @@ struct DrawnBar {
     Font font;
     ColorBar bar;
     Image picture;
-    std::vector<std::uint8_t> codes;
+    std::vector<std::uint16_t> codes;
 };
 
 TransferFunction colorful() {

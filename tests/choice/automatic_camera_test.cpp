@@ -93,8 +93,8 @@ TEST(FittedCamera, LeavesMarginsFree) {
         const auto points =
             cloud(seed, {1, seed % 7 == 0 ? 40 : 2, seed % 5 == 0 ? .01 : 3}, {1000, -200, 0});
         const ViewTurn turn{37. * seed, 11. * seed};
-        const Camera camera =
-            fitted_camera(points, WorldAxes::unnamed, turn, width, height, false, margins);
+        const Camera camera = fitted_camera(points, front_of(WorldAxes::unnamed), turn, width,
+                                            height, false, margins);
         const Reach reach(points, camera);
         constexpr double inner = 1 - 1. / 25;
         // The free part reaches from -.9 to .4, and from -.6 to .8.

@@ -137,15 +137,15 @@ TEST(LightWords, AreLightsOfTheChosenCamera) {
     const Cube cube;
     const Scene scene = chosen_with({.view = "left", .light = "two"}, cube.field);
     ASSERT_TRUE(scene.lighting);
-    EXPECT_EQ(scene.lighting->lights, lights_of(LightWord::two, *scene.camera));
-    EXPECT_TRUE(scene.lighting->smallest_gradient.is_given());
+    EXPECT_EQ((*scene.lighting)->lights, lights_of(LightWord::two, *scene.camera));
+    EXPECT_TRUE((*scene.lighting)->smallest_gradient.is_given());
     // A scene's own terms stay.
     Scene shiny = open_scene();
     shiny.lighting = Lighting{};
     shiny.lighting->specular = .9;
     const Scene lit = chosen_with({.light = "left"}, cube.field, shiny);
-    EXPECT_EQ(lit.lighting->specular, .9);
-    EXPECT_EQ(lit.lighting->lights.size(), 1u);
+    EXPECT_EQ((*lit.lighting)->specular, .9);
+    EXPECT_EQ((*lit.lighting)->lights.size(), 1u);
 }
 
 // The formulas of docs/first-picture.md, written again.

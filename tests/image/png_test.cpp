@@ -323,14 +323,14 @@ TEST(Png, ShowsAnnotationsOverThePictureAndBackground) {
     image.pixel(1, 0)[0] = 0.25f;
     image.pixel(1, 0)[3] = 0.5f;
     const glm::dvec3 background(0, 0, 1);
-    const std::vector<std::uint8_t> plain = png_codes(image, background, ImageColorSpace::display);
+    const auto plain = coded_picture("a", image, background, ImageColorSpace::display).codes.codes;
     auto layer = std::make_shared<Image>(3, 1);
     for (const int column : {1, 2}) {
         layer->pixel(column, 0)[1] = column == 1 ? 0.5f : 1;
         layer->pixel(column, 0)[3] = column == 1 ? 0.5f : 1;
     }
     image.annotations = layer;
-    const std::vector<std::uint8_t> shown = png_codes(image, background, ImageColorSpace::display);
+    const auto shown = coded_picture("a", image, background, ImageColorSpace::display).codes.codes;
     for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(shown[c], plain[c]);
     // Half of (.25, 0, .5), and half of green: .125, .5, .25 of 255.
     EXPECT_EQ(std::vector<int>(shown.begin() + 3, shown.end()),
