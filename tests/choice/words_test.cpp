@@ -142,7 +142,7 @@ TEST(LightWords, AreLightsOfTheChosenCamera) {
     // A scene's own terms stay.
     Scene shiny = open_scene();
     shiny.lighting = Lighting{};
-    shiny.lighting->specular = .9;
+    (*shiny.lighting)->specular = .9;
     const Scene lit = chosen_with({.light = "left"}, cube.field, shiny);
     EXPECT_EQ((*lit.lighting)->specular, .9);
     EXPECT_EQ((*lit.lighting)->lights.size(), 1u);
@@ -220,7 +220,7 @@ TEST(Presets, StandForTheirWords) {
         EXPECT_EQ(a.lighting, b.lighting) << preset.name;
         // A word beside the preset wins.
         const Scene c = chosen_with({.light = "right", .preset = preset.name}, cube.field);
-        EXPECT_EQ(c.lighting->lights, lights_of(LightWord::right, *c.camera)) << preset.name;
+        EXPECT_EQ((*c.lighting)->lights, lights_of(LightWord::right, *c.camera)) << preset.name;
     }
 }
 
