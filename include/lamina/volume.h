@@ -74,7 +74,7 @@ LAMINA_API const char* name_of(SampleType type);  // "uint8", "int16", "uint16",
 
 class VolumeStore;
 
-// What samples measure, as a file names it; each is empty if the file does not say.
+// Quantity that samples measure, as a file names it; each text is empty if the file does not say.
 struct Quantity {
     std::string name, unit;
 

@@ -131,7 +131,7 @@ def scene_of(data: Any, transfer_function: Any = None, keywords: Mapping[str, An
     return scene
 
 
-# What is chosen of a picture of plain data, beside transfer function and camera (docs/first-picture.md). The command
+# Keys chosen for a picture of plain data, beside transfer function and camera (docs/first-picture.md). The command
 # line has the same rule.
 _CHOSEN: dict[str, Any] = {"lighting": "auto", "image": {"background": [1, 1, 1]}}
 

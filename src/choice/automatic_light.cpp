@@ -13,8 +13,8 @@ namespace lamina {
 
 namespace {
 
-// Least share of what shows that lies on surfaces: half as much again as of white noise, of which it
-// is a tenth. Noisy things look flat without light.
+// Least share of what shows that lies on surfaces: half as much again as of white noise, of which
+// it is a tenth. Noisy things look flat without light.
 constexpr double least_surfaces = .15;
 constexpr std::size_t light_bins = 256;
 // Bound on the error, in 1/255, below which software OpenGL may refuse light: its loops are too

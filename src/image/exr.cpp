@@ -237,7 +237,7 @@ void write_pixels(FileStream& stream, const Image& image,
     if (space != ImageColorSpace::linear)
         header.insert(space_attribute, Imf::StringAttribute(name_of(space)));
     Imf::FrameBuffer pixels;
-    const auto add = [&](const Image& layer, const char* const (&names)[4]) {
+    const auto add = [&](const Image& layer, const char* const(&names)[4]) {
         for (int channel = 0; channel < 4; ++channel) {
             header.channels().insert(names[channel], Imf::Channel(Imf::FLOAT));
             pixels.insert(names[channel], slice(layer, channel, header.dataWindow(), 0));

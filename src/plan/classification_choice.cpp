@@ -139,7 +139,8 @@ void check_exact(const Scene& scene, const Facts& facts, int least,
 
 LightPlan plan_light(const Scene& scene, double max_color, bool cuts_rays) {
     if (!scene.lighting || !cuts_rays) return {copied_lighting(scene.lighting)};
-    return {copied_lighting(scene.lighting), most_bend(scene, max_color), light_share * scene.max_error};
+    return {copied_lighting(scene.lighting), most_bend(scene, max_color),
+            light_share * scene.max_error};
 }
 
 // Returns the bound of docs/numerics.md, equation (10.6).

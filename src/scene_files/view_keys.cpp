@@ -105,9 +105,9 @@ void add_lighting(KeyTable<Scene>& scene) {
             object.fail_at(mistake->key, mistake->message);
         return lighting;
     };
-    Form<std::optional<Auto<Lighting>>> lit = optional_form(automatic_form(
-        form, &nlohmann::json::is_object,
-        "an object {...}, true, \"auto\", or false for colours as they are"));
+    Form<std::optional<Auto<Lighting>>> lit = optional_form(
+        automatic_form(form, &nlohmann::json::is_object,
+                       "an object {...}, true, \"auto\", or false for colours as they are"));
     lit.read = [read = lit.read](JsonReader& reader, const std::string& key) {
         const nlohmann::json& value = reader.value(key);
         if (!value.is_boolean()) return read(reader, key);
