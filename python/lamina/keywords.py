@@ -29,6 +29,7 @@ KEYWORDS: dict[str, tuple[str, ...]] = {
     "background": ("image", "background"),
     "transparent": ("image", "transparent"),
     "png_bits": ("image", "png_bits"),
+    "annotations": ("image", "annotations"),
     "method": ("render", "method"),
     "target": ("render", "target"),
     "emulate": ("render", "emulate"),
@@ -175,6 +176,118 @@ class LightingLightKeys(TypedDict, total=False):
 
     direction: Union[Literal["headlight"], Vector]
     color: Color
+
+
+class AnnotationsKeys(TypedDict, total=False):
+    """Keys of ``annotations``.
+
+    - ``colorbar``: The transfer function's colours and opacities. With "labels" beside it: the one that fits the
+      data. Default: false.
+    - ``labels``: A legend of the labels that show, by their names or numbers. Default: false.
+    - ``scale_bar``: A length of the world; in perspective that of the plane through the camera's center. Default:
+      false.
+    - ``axes``: Arrows along the world's axes. Default: false.
+    - ``box``: The edges of the data's box, with numbers. The volume does not hide them. Default: false.
+    - ``title``: Above the picture's middle.
+    - ``texts``: Further texts.
+    """
+
+    colorbar: Union[bool, AnnotationsColorbarKeys]
+    labels: Union[bool, AnnotationsLabelsKeys]
+    scale_bar: Union[bool, AnnotationsScaleBarKeys]
+    axes: Union[bool, AnnotationsAxesKeys]
+    box: Union[bool, AnnotationsBoxKeys]
+    title: Union[str, AnnotationsTitleKeys]
+    texts: Sequence[AnnotationsTextKeys]
+
+
+class AnnotationsColorbarKeys(TypedDict, total=False):
+    """Keys of ``annotations.colorbar``.
+
+    - ``position``: A corner, or the middle of an edge; auto: each annotation has its own place. Default: "auto".
+    - ``size``: Factor on the size, which follows the picture's height. Default: 1.
+    - ``text``: Stands above; the data's name and unit if it is left out.
+    - ``format``: Of numbers: one {}, {:.Nf}, {:.Ne} or {:.Ng} with text around it.
+    """
+
+    position: Literal["auto", "top_left", "top", "top_right", "left", "right", "bottom_left", "bottom", "bottom_right"]
+    size: float
+    text: str
+    format: str
+
+
+class AnnotationsLabelsKeys(TypedDict, total=False):
+    """Keys of ``annotations.labels``.
+
+    - ``position``: A corner, or the middle of an edge; auto: each annotation has its own place. Default: "auto".
+    - ``size``: Factor on the size, which follows the picture's height. Default: 1.
+    - ``text``: Stands above; the data's name and unit if it is left out.
+    """
+
+    position: Literal["auto", "top_left", "top", "top_right", "left", "right", "bottom_left", "bottom", "bottom_right"]
+    size: float
+    text: str
+
+
+class AnnotationsScaleBarKeys(TypedDict, total=False):
+    """Keys of ``annotations.scale_bar``.
+
+    - ``position``: A corner, or the middle of an edge; auto: each annotation has its own place. Default: "auto".
+    - ``size``: Factor on the size, which follows the picture's height. Default: 1.
+    - ``format``: Of numbers: one {}, {:.Nf}, {:.Ne} or {:.Ng} with text around it.
+    """
+
+    position: Literal["auto", "top_left", "top", "top_right", "left", "right", "bottom_left", "bottom", "bottom_right"]
+    size: float
+    format: str
+
+
+class AnnotationsAxesKeys(TypedDict, total=False):
+    """Keys of ``annotations.axes``.
+
+    - ``position``: A corner, or the middle of an edge; auto: each annotation has its own place. Default: "auto".
+    - ``size``: Factor on the size, which follows the picture's height. Default: 1.
+    """
+
+    position: Literal["auto", "top_left", "top", "top_right", "left", "right", "bottom_left", "bottom", "bottom_right"]
+    size: float
+
+
+class AnnotationsBoxKeys(TypedDict, total=False):
+    """Keys of ``annotations.box``.
+
+    - ``size``: Factor on lines and numbers. Default: 1.
+    - ``format``: Of numbers: one {}, {:.Nf}, {:.Ne} or {:.Ng} with text around it.
+    """
+
+    size: float
+    format: str
+
+
+class AnnotationsTitleKeys(TypedDict, total=False):
+    """Keys of ``annotations.title``.
+
+    - ``text``: Lines are parted by \n.
+    - ``position``: A corner, or the middle of an edge; auto: each annotation has its own place. Default: "auto".
+    - ``size``: Factor on the size, which follows the picture's height. Default: 1.
+    """
+
+    text: str
+    position: Literal["auto", "top_left", "top", "top_right", "left", "right", "bottom_left", "bottom", "bottom_right"]
+    size: float
+
+
+class AnnotationsTextKeys(TypedDict, total=False):
+    """Keys of ``annotations.text``.
+
+    - ``text``: Lines are parted by \n.
+    - ``position``: A corner, or the middle of an edge; auto: each annotation has its own place. Default: "auto".
+    - ``size``: Factor on the size, which follows the picture's height. Default: 1.
+    """
+
+    text: str
+    position: Literal["auto", "top_left", "top", "top_right", "left", "right", "bottom_left", "bottom", "bottom_right"]
+    size: float
 
 
 class EmulateKeys(TypedDict, total=False):
@@ -367,7 +480,7 @@ class Keywords(TypedDict, total=False):
     - ``clip``: What is drawn of the data: what lies on the kept side of all planes and in the box. Words add planes:
       "x:10:" (from 10 on), "x::10" (up to 10), "x>10", "x<10".
     - ``lighting``: Emission is lit by the gradient of the scalar, on both of its sides; true: with all defaults;
-      absent or false: colours are shown as they are.
+      auto: if that shows surfaces of the data; absent or false: colours are shown as they are.
     - ``width``: Default: 800.
     - ``height``: Default: 600.
     - ``color_space``: What triples and colour maps are given in, and pictures composited in: linear light, or display
@@ -375,6 +488,7 @@ class Keywords(TypedDict, total=False):
     - ``background``: Default: [0, 0, 0].
     - ``transparent``: PNG files and films have straight alpha and no background. Default: false.
     - ``png_bits``: Of each code in PNG files. Default: 8.
+    - ``annotations``: What is drawn beside the picture, in PNG files and on screens (docs/annotations.md).
     - ``method``: Left out: slice for scenes with a volume, project for others.
     - ``target``: Default: "float32".
     - ``emulate``: Fixed-point compositing step by step, for target emulated.
@@ -407,13 +521,14 @@ class Keywords(TypedDict, total=False):
     nan: Union[Literal["error", "transparent"], None]
     camera: Union[Literal["auto"], CameraKeys, Camera, None]
     clip: Union[ClipKeys, None, str, Sequence[str]]
-    lighting: Union[bool, LightingKeys, Lighting, None]
+    lighting: Union[Literal["auto"], LightingKeys, Lighting, bool, None]
     width: Union[int, None]
     height: Union[int, None]
     color_space: Union[Literal["linear", "display"], None]
     background: Union[Color, None]
     transparent: Union[bool, None]
     png_bits: Union[Literal[8, 16], None]
+    annotations: Union[AnnotationsKeys, None]
     method: Union[Literal["slice", "project", "trace"], None]
     target: Union[Literal["float32", "float16", "fixed16", "fixed8", "emulated", "auto"], None]
     emulate: Union[EmulateKeys, None]

@@ -113,7 +113,7 @@ void add_lighting(KeyTable<Scene>& scene) {
         if (!value.is_boolean()) return read(reader, key);
         return value.get<bool>() ? std::optional<Auto<Lighting>>(Lighting{}) : std::nullopt;
     };
-    lit.schema["oneOf"].insert(lit.schema["oneOf"].begin(), {{"type", "boolean"}});
+    lit.schema["oneOf"].push_back(KeyJson::object({{"type", "boolean"}}));
     scene.key("lighting", &Scene::lighting, lit,
               "Emission is lit by the gradient of the scalar, on both of its sides; true: with all "
               "defaults; auto: if that shows surfaces of the data; absent or false: colours are "

@@ -29,9 +29,14 @@ def chosen(lamina, folder, scratch, only):
         if name in files:
             found.append((name, files[name]))
         elif name in makers:
-            ending = "vtu" if makers[name] == "example" and "mesh" in name else "nrrd"
-            made = scratch / f"{name}.{ending}"
-            subprocess.run([lamina, makers[name], name, "-o", made], check=True, capture_output=True)
+            made = scratch / f"{name}.nrrd"
+            if makers[name] == "example":  # each has a file name of its own
+                folder_of_one = scratch / name
+                folder_of_one.mkdir()
+                subprocess.run([lamina, "example", name], check=True, capture_output=True, cwd=folder_of_one)
+                made, = folder_of_one.iterdir()
+            else:
+                subprocess.run([lamina, "generate", name, "-o", made], check=True, capture_output=True)
             found.append((name, made))
         elif pathlib.Path(name).exists():
             found.append((pathlib.Path(name).name.split(".")[0], pathlib.Path(name)))
