@@ -12,13 +12,14 @@ def spacings_of(fields):
     """Edges of a voxel; None where the axes are not those of the world."""
     if "space directions" not in fields:
         return [float(spacing) for spacing in fields.get("spacings", "1 1 1").split()]
-    rows = [[float(x) for x in row.strip("()").split(",")] for row in fields["space directions"].split()]
+    rows = [[float(x) for x in row.strip("()").split(",")] for row in fields["space directions"].split()
+            if row != "none"]
     straight = all((rows[i][j] > 0) == (i == j) and rows[i][j] >= 0 for i in range(3) for j in range(3))
     return [rows[i][i] for i in range(3)] if straight else None
 
 
 def read(path):
-    """Samples (x fastest, flat), sizes and spacings."""
+    """Samples (x fastest, flat), sizes and spacings; of several times the first."""
     header, _, data = path.read_bytes().partition(b"\n\n")
     fields = dict(line.split(": ", 1) for line in header.decode("ascii", "replace").splitlines()
                   if ": " in line and not line.startswith("#"))
@@ -29,5 +30,5 @@ def read(path):
                          "whose axes are the world's")
     if fields["encoding"] != "raw":
         data = gzip.decompress(data)
-    sizes = [int(size) for size in fields["sizes"].split()]
-    return numpy.frombuffer(data, TYPES[fields["type"]]), sizes, spacings
+    sizes = [int(size) for size in fields["sizes"].split()][:3]
+    return numpy.frombuffer(data, TYPES[fields["type"]], count=numpy.prod(sizes)), sizes, spacings
