@@ -131,8 +131,8 @@ def scene_of(data: Any, transfer_function: Any = None, keywords: Mapping[str, An
     return scene
 
 
-# Keys chosen for a picture of plain data, beside transfer function and camera (docs/first-picture.md). The command
-# line has the same rule.
+# Keys chosen for a picture of plain data, beside transfer function and camera (docs/first-picture.md), unless a
+# transfer function is given.
 _CHOSEN: dict[str, Any] = {"lighting": "auto", "image": {"background": [1, 1, 1]}}
 
 

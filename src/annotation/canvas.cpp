@@ -2,11 +2,15 @@
 #include "annotation/canvas.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 namespace lamina {
 namespace {
+
+// Rows of a shape whose areas are in memory at once: 33 MB in a picture of 65,536 columns.
+constexpr int most_rows = 64;
 
 // Largest distance of a curve from its lines, in pixels.
 constexpr double flatness = 0.02;
@@ -52,16 +56,23 @@ Part part_of(const Outline& path, int width, int height) {
             inside(std::ceil(most.x), width), inside(std::ceil(most.y), height)};
 }
 
+// Tells whether a sum of edges is an area: sums that cancel leave rounding errors.
+bool covers(double area) {
+    return std::abs(area) > 1e-9;
+}
+
 // The area of a shape in each pixel, by edges: an edge that goes down by dy in a row of pixels adds
 // dy to the area of all pixels right of it, and its share to those that it crosses. Sums along a
-// row are then areas, with the sign of the shape's orientation.
+// row are then areas, with the sign of the shape's orientation. `areas`: memory of zeros, which
+// sweep() leaves as such; `part` has at most `most_rows` rows.
 class Areas {
   public:
     Areas(const Part& part, std::vector<double>& areas) : part_(part), areas_(areas) {
         // One more a row takes what edges beyond the right end add.
-        areas_.assign(static_cast<std::size_t>(part.width() + 1) *
-                          static_cast<std::size_t>(part.bottom - part.top),
-                      0.0);
+        const std::size_t size = static_cast<std::size_t>(part.width() + 1) *
+                                 static_cast<std::size_t>(part.bottom - part.top);
+        if (areas_.size() < size) areas_.resize(size, 0.0);
+        touched_.fill({part.width(), -1});
     }
 
     void edge(glm::dvec2 a, glm::dvec2 b) {
@@ -78,11 +89,36 @@ class Areas {
         }
     }
 
-    double sum_to(int row, int column, double before) const {
-        return before + at(row)[column - part_.left];
+    // Calls cover(column, area) for the pixels of a row that edges cross and for those between
+    // them, and sets the row's memory to zeros.
+    template <typename Cover>
+    void sweep(int row, const Cover& cover) {
+        const Touched touched = touched_[static_cast<std::size_t>(row - part_.top)];
+        double* const areas = at(row);
+        double area = 0;
+        int column = touched.first;
+        for (; column <= touched.last && column < part_.width(); ++column) {
+            area += areas[column];
+            cover(part_.left + column, area);
+        }
+        if (touched.first <= touched.last)
+            std::fill(areas + touched.first, areas + touched.last + 1, 0.0);
+        // Edges beyond the picture's right end would close the shape.
+        if (!covers(area)) return;
+        for (; column < part_.width(); ++column) cover(part_.left + column, area);
     }
 
   private:
+    struct Touched {
+        int first, last;  // columns of the part
+    };
+
+    void touch(int row, int first, int last) {
+        Touched& touched = touched_[static_cast<std::size_t>(row - part_.top)];
+        touched.first = std::min(touched.first, first);
+        touched.last = std::max(touched.last, last);
+    }
+
     double* at(int row) const {
         return areas_.data() + static_cast<std::size_t>(row - part_.top) *
                                    static_cast<std::size_t>(part_.width() + 1);
@@ -93,11 +129,15 @@ class Areas {
         const double end = part_.width();
         double lo = std::min(x0, x1) - part_.left, hi = std::max(x0, x1) - part_.left;
         double* const areas = at(row);
-        if (hi <= 0) return void(areas[0] += height);
-        if (lo >= end) return;
+        if (hi <= 0) {
+            areas[0] += height;
+            return touch(row, 0, 0);
+        }
+        if (!(lo < end)) return;
         if (lo < 0) {  // the part left of the picture covers whole rows
             const double share = -lo / (hi - lo);
             areas[0] += height * share;
+            touch(row, 0, 0);
             height -= height * share;
             lo = 0;
         }
@@ -105,21 +145,23 @@ class Areas {
             height *= (end - lo) / (hi - lo);
             hi = end;
         }
-        across(areas, height, lo, hi);
+        const int first = std::min(static_cast<int>(lo), part_.width() - 1);
+        touch(row, first, across(areas, first, height, lo, hi));
     }
 
-    // Adds a piece from lo to hi, both between 0 and the width.
-    void across(double* areas, double height, double lo, double hi) {
-        const int first = std::min(static_cast<int>(lo), part_.width() - 1);
+    // Adds a piece from lo to hi, both between 0 and the width. Returns the last column that it
+    // changes.
+    static int across(double* areas, int first, double height, double lo, double hi) {
         if (hi <= first + 1) {
             const double right_of_it = first + 1 - 0.5 * (lo + hi);
             areas[first] += height * right_of_it;
             areas[first + 1] += height * (1 - right_of_it);
-            return;
+            return first + 1;
         }
         const double per_column = height / (hi - lo);
         double place = lo;
-        for (int column = first; place < hi; ++column) {
+        int column = first;
+        for (; place < hi; ++column) {
             const double next = std::min(hi, double(column + 1));
             const double piece = per_column * (next - place);
             const double right_of_it = column + 1 - 0.5 * (place + next);
@@ -127,10 +169,12 @@ class Areas {
             areas[column + 1] += piece * (1 - right_of_it);
             place = next;
         }
+        return column;
     }
 
     Part part_;
     std::vector<double>& areas_;
+    std::array<Touched, most_rows> touched_{};  // of each row
 };
 
 }  // namespace
@@ -191,18 +235,18 @@ Canvas::Canvas(int width, int height, ImageColorSpace space)
 void Canvas::fill(const Outline& path, const Paint& paint) {
     const Part part = part_of(path, width(), height());
     if (part.left >= part.right || part.top >= part.bottom) return;
-    Areas areas(part, areas_);
-    for (const auto& contour : path.contours()) {
-        for (std::size_t i = 0; i < contour.size(); ++i)
-            areas.edge(contour[i], contour[(i + 1) % contour.size()]);
-    }
-    for (int row = part.top; row < part.bottom; ++row) {
-        double area = 0;
-        for (int column = part.left; column < part.right; ++column) {
-            area = areas.sum_to(row, column, area);
-            // Sums of edges that cancel leave rounding errors.
-            const double covered = std::min(std::abs(area), 1.0);
-            if (covered > 1e-9) lay(column, row, covered > 1 - 1e-9 ? 1 : covered, paint);
+    for (int top = part.top; top < part.bottom; top += most_rows) {
+        const Part band{part.left, top, part.right, std::min(top + most_rows, part.bottom)};
+        Areas areas(band, areas_);
+        for (const auto& contour : path.contours()) {
+            for (std::size_t i = 0; i < contour.size(); ++i)
+                areas.edge(contour[i], contour[(i + 1) % contour.size()]);
+        }
+        for (int row = band.top; row < band.bottom; ++row) {
+            areas.sweep(row, [&](int column, double area) {
+                const double covered = std::min(std::abs(area), 1.0);
+                if (covers(covered)) lay(column, row, covered > 1 - 1e-9 ? 1 : covered, paint);
+            });
         }
     }
 }

@@ -74,7 +74,7 @@ class Canvas {
     void lay(int column, int row, double coverage, const Paint& paint);
 
     std::shared_ptr<Image> layer_;
-    std::vector<double> areas_;  // of the shape that is filled
+    std::vector<double> areas_;  // of rows of the shape that is filled; zeros between shapes
 };
 
 }  // namespace lamina

@@ -15,7 +15,7 @@ namespace {
 // Sizes in ems, but for the bar's height, which is a share of the picture's.
 constexpr double bar_share = 0.5, bar_width = 0.9, curve_width = 2.4, tick_length = 0.3,
                  tick_gap = 0.25, least_tick_distance = 1.9, text_line = 1.35, caption_gap = 0.45,
-                 small_text = 0.8, widest_caption = 9;
+                 small_text = 0.8;
 constexpr int most_ticks = 11;
 // Largest opacity of a curve whose length is chosen; the round length below makes it .6 or more.
 constexpr double chosen_opacity = 0.9;
@@ -48,9 +48,9 @@ std::vector<std::string> caption_of(Pen& pen, const Annotation& wanted, const Qu
     const std::string unit_text = unit.empty() || name.empty() ? unit : "(" + unit + ")";
     const std::string all = name + (name.empty() || unit.empty() ? "" : " ") + unit_text;
     if (all.empty()) return lines;
-    if (pen.width(all, em) <= widest_caption * em || name.empty() || unit.empty())
-        return {fitted_text(pen, all, em, widest_caption * em)};
-    return {fitted_text(pen, name, em, widest_caption * em), unit_text};
+    const std::string fitted = pen.fitted_name(all, em);
+    if (fitted == all || name.empty() || unit.empty()) return {fitted};
+    return {pen.fitted_name(name, em), pen.fitted_name(unit_text, em)};
 }
 
 // A colour bar that is laid out. Lengths are in pixels, from the block's upper left corner.
@@ -201,18 +201,6 @@ double value_at(const BarRange& range, int row, int rows) {
     return range.hi - (range.hi - range.lo) * ((row + 0.5) / rows);
 }
 
-std::string fitted_text(Pen& pen, const std::string& text, double size, double most) {
-    if (pen.width(text, size) <= most) return text;
-    std::string shorter = text;
-    while (!shorter.empty() && pen.width(shorter + "\u2026", size) > most) {
-        // Removes a whole character: its last byte and those before it up to its first.
-        while (shorter.size() > 1 && (static_cast<unsigned char>(shorter.back()) & 0xC0) == 0x80)
-            shorter.pop_back();
-        shorter.pop_back();
-    }
-    return shorter + "\u2026";
-}
-
 ColorBar color_bar(Pen& pen, const Annotation& wanted, const Scene& scene,
                    const AnnotatedData& data) {
     const AnnotationStyle& style = pen.style;
@@ -225,7 +213,8 @@ ColorBar color_bar(Pen& pen, const Annotation& wanted, const Scene& scene,
     double under = 0;
     if (largest > 0) {
         bar.length = length_of_opacity(scene, largest);
-        bar.opacity_text = "opacity in " + length_text(bar.length, data.length_unit);
+        bar.opacity_text =
+            "opacity in " + length_text(bar.length, pen.fitted_name(data.length_unit, em));
         bar.left = static_cast<int>(std::round(curve_width * em));
         under = (0.4 + (1 + text_line) * small_text) * em;
     }

@@ -33,7 +33,4 @@ ColorBar color_bar(Pen& pen, const Annotation& wanted, const Scene& scene,
 Block label_legend(Pen& pen, const Annotation& wanted, const Scene& scene,
                    const AnnotatedData& data);
 
-// Shortens a text with an ellipsis until it is at most `most` pixels wide.
-std::string fitted_text(Pen& pen, const std::string& text, double size, double most);
-
 }  // namespace lamina

@@ -82,6 +82,9 @@ std::optional<std::vector<char32_t>> characters_of(std::string_view text) {
 }
 
 void check_text(const std::string& key, std::string_view text) {
+    if (text.size() > longest_text) {
+        fail("{}: found a text of {} bytes, expected at most {}", key, text.size(), longest_text);
+    }
     if (characters_of(text)) return;
     std::string_view rest = text;
     std::size_t place = 0;
@@ -127,6 +130,22 @@ double Font::width(std::string_view text, double size) {
     double units = 0;
     for (const char32_t character : drawn_characters(text)) units += glyph(character).advance;
     return units * size / library_->units();
+}
+
+std::string Font::fitted(std::string_view text, double size, double most) {
+    constexpr std::string_view ellipsis = "\u2026";
+    const double units_of_ellipsis = glyph(U'\u2026').advance;
+    const auto fits = [&](double units) { return units * size / library_->units() <= most; };
+    double units = 0;
+    std::size_t kept = 0;  // bytes that leave room for an ellipsis
+    for (std::string_view rest = text; !rest.empty();) {
+        units += glyph(next_character(rest).value_or(replacement)).advance;
+        const std::size_t passed = text.size() - rest.size();
+        if (passed > longest_text || !fits(units))
+            return std::string(text.substr(0, kept)).append(ellipsis);
+        if (fits(units + units_of_ellipsis)) kept = passed;
+    }
+    return std::string(text);
 }
 
 Outline Font::outlines(std::string_view text, const glm::dvec2& start, double size) {

@@ -21,7 +21,11 @@ namespace lamina {
 // longer forms than needed, surrogates, characters beyond U+10FFFF.
 std::optional<std::vector<char32_t>> characters_of(std::string_view text);
 
-// Throws Error, which names `key`, unless the text is UTF-8.
+// Largest size of a text in bytes: more than a picture can show. A character's outline takes about
+// a kilobyte of memory.
+constexpr std::size_t longest_text = 10'000;
+
+// Throws Error, which names `key`, unless the text is UTF-8 and at most `longest_text` long.
 void check_text(const std::string& key, std::string_view text);
 
 std::span<const unsigned char> font_file();
@@ -37,6 +41,11 @@ class Font {
     // `size`: of the em, in pixels.
     double width(std::string_view text, double size);
     static double capital_height(double size) { return 0.729 * size; }  // of DejaVu Sans
+
+    // Shortens a text with an ellipsis until it is at most `most` pixels wide, and about
+    // `longest_text` long: characters may have no width. Texts from files have any length, so it
+    // reads no farther than needed.
+    std::string fitted(std::string_view text, double size, double most);
 
     // Returns the outlines of a line of text that begins at `start`, on its base line. Bytes that
     // are no UTF-8 become U+FFFD.

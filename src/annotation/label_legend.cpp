@@ -60,25 +60,28 @@ Block label_legend(Pen& pen, const Annotation& wanted, const Scene& scene,
     if (!wanted.text.empty()) {
         for (const std::string_view line : lines_of(wanted.text)) legend.caption.emplace_back(line);
     } else if (!data.quantity.name.empty()) {
-        legend.caption = {fitted_text(pen, data.quantity.name, em, widest)};
+        legend.caption = {pen.font.fitted(data.quantity.name, em, widest)};
     }
-    for (const Label& label : data.labels) {
-        const OpticalProperties optics = scene.transfer_function->at(label.code);
-        if (!(optics.extinction > 0)) continue;
-        const std::string& text = label.name.empty() ? label.number : label.name;
-        legend.entries.push_back({fitted_text(pen, text, em, widest - indent), optics.color});
-    }
+    std::vector<const Label*> shown;
+    for (const Label& label : data.labels)
+        if (scene.transfer_function->at(label.code).extinction > 0) shown.push_back(&label);
     const auto rows = static_cast<std::size_t>(
         std::max(2.0, std::floor(tallest_legend * pen.style.height / (row_height * em)) -
                           double(legend.caption.size())));
-    if (legend.entries.size() > rows) {
-        const std::size_t left_out = legend.entries.size() - (rows - 1);
-        legend.entries.resize(rows - 1);
+    if (shown.size() > rows) {
+        const std::size_t left_out = shown.size() - (rows - 1);
+        shown.resize(rows - 1);
         legend.rest = fmt::format("and {} more", left_out);
         warn(fmt::format(
             "image.annotations.labels: the picture has room for {} of {} labels; a smaller "
             "\"size\" or a higher picture shows more",
             rows - 1, rows - 1 + left_out));
+    }
+    // Only texts that stay are fitted: a file may name many thousands.
+    for (const Label* const label : shown) {
+        const std::string& text = label->name.empty() ? label->number : label->name;
+        legend.entries.push_back({pen.font.fitted(text, em, widest - indent),
+                                  scene.transfer_function->at(label->code).color});
     }
     Block block{"image.annotations.labels",
                 wanted.position.value_or(AnnotationPosition::right),

@@ -39,6 +39,9 @@ struct AnnotationStyle {
     double gap;             // distance from the picture's edges and between blocks, in pixels
 };
 
+// Largest width of a name or unit of a file, in ems.
+constexpr double widest_name = 9;
+
 // How far from the anchor a text begins: at its left end, its middle or its right end.
 enum class Align { left, center, right };
 
@@ -49,6 +52,10 @@ class Pen {
         : style(of_picture), font(of_text), canvas_(canvas) {}
 
     double width(std::string_view text, double size) { return font.width(text, size); }
+    // Shortens a name or unit of a file, which may have any length, to `widest_name`.
+    std::string fitted_name(std::string_view name, double size) {
+        return font.fitted(name, size, widest_name * size);
+    }
     // Writes a line of text on the base line through `anchor`, which moves to a whole row.
     void text(std::string_view line, const glm::dvec2& anchor, double size,
               Align align = Align::left);

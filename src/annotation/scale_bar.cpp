@@ -46,7 +46,8 @@ Block scale_bar(Pen& pen, const Annotation& wanted, const Scene& scene, const An
     // Before the camera is chosen, only the height matters: the block takes room below the data.
     if (scene.camera.is_automatic()) return block;
     const Scale scale = scale_of(scene, longest_bar * pen.style.width);
-    const std::string text = text_of(wanted, scene, data.length_unit, scale.length);
+    const std::string text =
+        text_of(wanted, scene, pen.fitted_name(data.length_unit, em), scale.length);
     block.size.x = std::ceil(std::max(scale.pixels, pen.width(text, em)));
     block.draw = [em, text, scale, width = block.size.x](Pen& drawing, const glm::dvec2& corner) {
         const double middle = corner.x + width / 2, top = std::round(corner.y);

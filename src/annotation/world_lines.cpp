@@ -262,7 +262,7 @@ void draw_numbers(Pen& pen, const Annotation& wanted, const SeenBox& box, const 
     write(b - inset(last), last);
     std::string name(1, "xyz"[edge.axis]);
     if (!coordinates) name = "length";
-    if (!data.length_unit.empty()) name += " (" + data.length_unit + ")";
+    if (!data.length_unit.empty()) name += " (" + pen.fitted_name(data.length_unit, em) + ")";
     if (glm::length(b - a) > 8 * em) write(0.5 * (a + b), name);
 }
 

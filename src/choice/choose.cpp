@@ -119,14 +119,16 @@ TransferFunction displayed(const TransferFunction& transfer_function) {
     return TransferFunction::linear(knots);
 }
 
-// Warns of labels that have the colour of the background by the file's own words.
-void warn_of_background(const VolumeLabels& labels, const Scene& scene) {
+// Warns of labels among the values that have the background's colour by the file's own words.
+void warn_of_background(const VolumeLabels& labels, const ValueDistribution& values,
+                        const Scene& scene) {
     constexpr double same = 1. / 512;  // half a step of 8 bits
     const bool display = scene.color_space == ImageColorSpace::display;
     std::string numbers;
     int count = 0;
     for (const Label& label : labels.list) {
         if (!label.color || label.opacity == 0 || label.number == "0") continue;
+        if (!(values.share(label.code, label.code) > 0)) continue;
         double largest = 0;
         for (int c = 0; c < 3; ++c) {
             const double linear = (*label.color)[c];
@@ -152,7 +154,8 @@ AutomaticTransfer chosen_function(const Scene& scene, const TransferSubject& sub
                                  field.least_padding_share(), field.labels(), subject);
     if (scene.color_space == ImageColorSpace::display && !adjustments.colormap)
         chosen.transfer_function = displayed(chosen.transfer_function);
-    if (field.labels() != nullptr) warn_of_background(*field.labels(), scene);
+    if (field.labels() != nullptr && !adjustments.colormap)
+        warn_of_background(*field.labels(), values, scene);
     if (!chosen.padding.empty()) warn(fmt::format("{}: {}", name_of_data(scene), chosen.padding));
     return chosen;
 }
@@ -285,6 +288,13 @@ std::string take_opacity(const Adjustments& adjustments, TransferFunction& trans
                        range.hi);
 }
 
+std::string clip_text(const Clip& clip) {
+    const std::size_t planes = clip.planes.size();
+    if (planes == 0) return "clip: a box, as asked";
+    return fmt::format("clip: {} plane{}{}, as asked", planes, planes == 1 ? "" : "s",
+                       clip.box ? " and a box" : "");
+}
+
 // Sets the directions of the wanted lights, for which the camera must be known, and says which
 // lights and clips were asked for.
 void add_lights(const Adjustments& adjustments, Choices& choices) {
@@ -294,10 +304,7 @@ void add_lights(const Adjustments& adjustments, Choices& choices) {
         choices.reasons.push_back(
             fmt::format("lighting: {}, as asked", name_of(*adjustments.light)));
     }
-    if (!adjustments.clip.keeps_all())
-        choices.reasons.push_back(fmt::format("clip: {} planes{}, as asked",
-                                              scene.clip.planes.size(),
-                                              scene.clip.box ? " and a box" : ""));
+    if (!adjustments.clip.keeps_all()) choices.reasons.push_back(clip_text(scene.clip));
 }
 
 // Chooses the camera of a scene whose transfer function is known. Returns why it is upright so, for

@@ -120,11 +120,12 @@ Orientation orientation_of(WorldAxes axes, const std::array<glm::dvec3, 8>& corn
     const std::string reason = fmt::format("{} is up, as asked", name_of(*up));
     if (!patient || !along_z(*up)) return {front_of(*up), false, reason};
     if (*up == UpAxis::plus_z) return {*patient, true, reason};
-    return {{opposite(patient->right), opposite(patient->up), patient->toward}, true, reason};
+    // Upside down, the patient's left is on the left of the picture.
+    return {{opposite(patient->right), opposite(patient->up), patient->toward}, false, reason};
 }
 
 ViewTurn turn_to(ViewSide side, const Orientation& orientation) {
-    // A patient's left is to the right of who looks from in front.
+    // The left of a patient who stands upright is to the right of who looks from in front.
     const double left = orientation.patient ? 90 : -90;
     switch (side) {
         case ViewSide::iso:

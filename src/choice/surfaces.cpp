@@ -162,6 +162,8 @@ LevelValues level_values(const Side& side, double bin, double usual_end, bool fr
         if (distances.empty() || level > distances.back() + least_distance * step)
             distances.push_back(level);
     }
+    // The surface below a solid thing may be one too many.
+    if (distances.size() > level_opacities.size()) distances.erase(distances.begin() + 1);
     for (const double one : distances) found.values.push_back(side.start + side.sign * one);
     return found;
 }

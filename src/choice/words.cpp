@@ -181,6 +181,22 @@ void set_transfer(const Words& words, ImageColorSpace space, Adjustments& adjust
     adjustments.opacity_word = words.opacity == "colormap" ? words.preset : words.opacity;
 }
 
+// Returns what is in both boxes; the first may be missing. Throws Error if it is nothing.
+ClipBox common_box(const std::optional<ClipBox>& own, ClipBox box) {
+    if (!own) return box;
+    for (int axis = 0; axis < 3; ++axis) {
+        box.min[axis] = std::max(box.min[axis], own->min[axis]);
+        box.max[axis] = std::min(box.max[axis], own->max[axis]);
+        if (box.min[axis] > box.max[axis]) {
+            fail(
+                "crop: found nothing in common with the scene's clip.box on axis {}, expected a "
+                "part of it",
+                "xyz"[axis]);
+        }
+    }
+    return box;
+}
+
 }  // namespace
 
 const char* name_of(LightWord word) {
@@ -232,7 +248,7 @@ void adjust_scene(Scene& scene, const Adjustments& adjustments) {
         if (std::ranges::find(planes, plane) == planes.end()) planes.push_back(plane);
     if (planes.size() > Clip::most_planes)
         fail("clip: found {} planes, expected at most {}", planes.size(), Clip::most_planes);
-    if (adjustments.clip.box) scene.clip.box = adjustments.clip.box;
+    if (adjustments.clip.box) scene.clip.box = common_box(scene.clip.box, *adjustments.clip.box);
     if (adjustments.light && given_lighting(scene.lighting) == nullptr) scene.lighting = Lighting{};
 }
 

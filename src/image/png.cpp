@@ -140,7 +140,7 @@ struct ShownPixel {
     bool clamped;
 };
 
-ShownPixel shown_pixel(const float* rgba, const PngLook& look) {
+ShownPixel shown_pixel(const std::array<float, 4>& rgba, const PngLook& look) {
     constexpr double rounding = 1.0 / 510;
     const double alpha = std::clamp(static_cast<double>(rgba[3]), 0.0, 1.0);
     ShownPixel shown{{0, 0, 0, alpha}, false};
@@ -157,34 +157,29 @@ ShownPixel shown_pixel(const float* rgba, const PngLook& look) {
     return shown;
 }
 
-}  // namespace
-
-const Image& with_annotations(const Image& picture, Image& shown) {
-    if (!picture.annotations) return picture;
-    const Image& layer = *picture.annotations;
-    shown = picture;
-    shown.annotations.reset();
-    for (std::size_t i = 0; i < shown.rgba.size(); i += 4) {
-        const float share = layer.rgba[i + 3];
-        if (share == 0) continue;
-        for (std::size_t c = i; c < i + 4; ++c)
-            shown.rgba[c] = layer.rgba[c] + (1 - share) * shown.rgba[c];
-    }
-    return shown;
+// Returns a pixel with the annotations laid over it.
+std::array<float, 4> annotated_pixel(const Image& image, std::size_t pixel) {
+    std::array<float, 4> rgba{};
+    std::copy_n(&image.rgba[4 * pixel], 4, rgba.begin());
+    if (!image.annotations) return rgba;
+    const float* const over = &image.annotations->rgba[4 * pixel];
+    if (over[3] == 0) return rgba;
+    for (std::size_t c = 0; c < 4; ++c) rgba[c] = over[c] + (1 - over[3]) * rgba[c];
+    return rgba;
 }
 
-CodedPicture coded_picture(const std::string& name, const Image& picture, const PngLook& look,
+}  // namespace
+
+CodedPicture coded_picture(const std::string& name, const Image& image, const PngLook& look,
                            ImageColorSpace space) {
-    check_image_size(name, picture.width, picture.height);
-    require_finite(name, picture);
-    Image annotated;
-    const Image& image = with_annotations(picture, annotated);
+    check_image_size(name, image.width, image.height);
+    require_finite(name, image);
     const std::size_t channels = look.transparent ? 4 : 3;
     CodedPicture coded{CodedImage(image.width, image.height, static_cast<int>(channels), look.bits),
                        0};
     std::uint16_t* code = coded.codes.codes.data();
     for (std::size_t pixel = 0; pixel < image.rgba.size() / 4; ++pixel) {
-        const ShownPixel shown = shown_pixel(&image.rgba[4 * pixel], look);
+        const ShownPixel shown = shown_pixel(annotated_pixel(image, pixel), look);
         for (std::size_t channel = 0; channel < channels; ++channel) {
             // Opacity has no curve.
             *code++ = display_code(shown.value[channel],

@@ -11,10 +11,6 @@
 
 namespace lamina {
 
-// Returns the picture with its annotations laid over it, or the picture itself if it has none.
-// `shown`: memory for the result.
-const Image& with_annotations(const Image& picture, Image& shown);
-
 // A picture as codes to look at, and the number of its pixels that were clamped by more than 1/510
 // in some channel; smaller excesses are rounding of a low-precision target.
 struct CodedPicture {
@@ -23,10 +19,9 @@ struct CodedPicture {
 };
 
 // Returns the codes that PNG files, screens and films show, annotations included: C + (1-A) *
-// background or, if the look
-// is transparent, C/A with the opacity A as straight alpha; clamped to 0..1, encoded to sRGB if it
-// is linear light. A transparent picture is clamped if C exceeds A. `name`: for messages. Throws
-// Error for numbers that are not finite.
+// background or, if the look is transparent, C/A with the opacity A as straight alpha; clamped to
+// 0..1, encoded to sRGB if it is linear light. A transparent picture is clamped if C exceeds A.
+// `name`: for messages. Throws Error for numbers that are not finite.
 CodedPicture coded_picture(const std::string& name, const Image& image, const PngLook& look,
                            ImageColorSpace space);
 

@@ -22,6 +22,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "base/profile.h"
 #include "gl/context.h"
@@ -72,7 +73,10 @@ gl::TexelBuffer make_texels(const std::vector<T>& texels) {
 // Makes the buffer larger if it does not hold `texels`.
 void reserve(gl::TexelBuffer& buffer, int components, std::size_t texels) {
     const std::size_t bytes = texels * static_cast<std::size_t>(components) * sizeof(std::uint32_t);
-    if (buffer.byte_count() < bytes) buffer = gl::TexelBuffer(components, texels + texels / 2);
+    if (buffer.byte_count() >= bytes) return;
+    const auto most =
+        static_cast<std::size_t>(gl::current_context()->capabilities().max_buffer_texels);
+    buffer = gl::TexelBuffer(components, std::max(texels, std::min(texels + texels / 2, most)));
 }
 
 }  // namespace
@@ -115,13 +119,20 @@ PixelArea EntryTiles::area_of(const Triangle& face, const WindowView& window) {
                          everywhere);
 }
 
-void EntryTiles::list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view) {
+void EntryTiles::list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view,
+                      std::size_t most, const std::string& renderer) {
     const WindowView window(view);
     areas_.resize(open_faces.size());
     parallel_for(std::ssize(open_faces), 1024, [&](std::int64_t i) {
         const auto face = static_cast<std::size_t>(i);
         areas_[face] = area_of(mesh.corners(open_faces[face]), window);
     });
+    if (const std::size_t places = count(areas_); places > most) {
+        fail(
+            "mesh: found {} places where rays may enter by a face, in tiles of an image of {} x {} "
+            "pixels, expected at most {}, which {} allows; use fewer pixels or --context cpu",
+            places, view.width, view.height, most, renderer);
+    }
     TileLists::list(areas_, view.width, view.height,
                     [](std::size_t face, int, int) { return static_cast<std::uint32_t>(face); });
 }
@@ -291,7 +302,9 @@ void GlMeshWalk::set_view(const View& view) {
 
 void GlMeshWalk::draw(const View& view, Progress* progress) {
     Stage listing("geometry");
-    entries_.list(mesh_.mesh, faces_, view);
+    const Capabilities& capabilities = gl::current_context()->capabilities();
+    entries_.list(mesh_.mesh, faces_, view,
+                  static_cast<std::size_t>(capabilities.max_buffer_texels), capabilities.renderer);
     upload_tiles();
     list_ms_ = listing.end();
     Stage drawing("draw");

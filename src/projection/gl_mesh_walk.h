@@ -18,8 +18,10 @@ namespace lamina {
 
 // Lists, for each tile of a picture that a mesh covers, the open faces by which rays may enter it.
 struct EntryTiles : TileLists {
-    // Lists the faces, by index into `open_faces`, for a view.
-    void list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view);
+    // Lists the faces, by index into `open_faces`, for a view. Throws Error if there are more than
+    // `most` entries, which the OpenGL of this name allows.
+    void list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view,
+              std::size_t most, const std::string& renderer);
 
   private:
     // Bounds the pixels whose rays may enter by a face: those around its corners, or all if it

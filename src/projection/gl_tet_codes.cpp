@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws a frame of a mesh on codes:
 //   1. Sort the visible cell fragments into visibility order.
-//   2. For each batch: project them on all cores, and list them for the tiles that they may cover.
-//   3. Dispatch projection/codes.comp, a workgroup a tile, until all lists are done.
+//   2. For each batch: project them on all cores.
+//   3. List as many as fit into a storage block for the tiles that they may cover, and dispatch
+//      projection/codes.comp, a workgroup a tile, until all lists are done; and so on with the
+//      rest.
 // With a compositing tree, steps 2 and 3 draw each leaf, and GlCodeTree composites the leaves.
 #include "projection/gl_tet_codes.h"
 
@@ -12,6 +14,7 @@
 #include <utility>
 
 #include "base/client.h"
+#include "base/error.h"
 #include "base/parallel.h"
 #include "base/profile.h"
 #include "compositing/codes.h"
@@ -33,18 +36,20 @@ enum StorageBinding : unsigned {
     entry_binding
 };
 
-// Returns the number of entries of a tile's list for one dispatch. Software rasterisers end all
-// loops of an invocation together after 65535 rounds, also those that integrate a fragment, and
-// draw up to 16 pixels at once, whose rounds add up if they meet other fragments. GPUs should take
-// no longer than RowPace::wanted_ms.
-int most_in_dispatch(const ProjectPlan& plan, int intervals) {
-    constexpr int most = 65000 / 16, least = 16;
-    if (!gl::current_context()->capabilities().software) return most;
-    // Pieces of a lit segment are 1 / 256 of it or longer, and each may be shortened some times.
-    if (plan.lighting) return least;
-    // Look-ups before the window, in it and behind it, each with two searches.
-    const int rounds = 2 + (plan.windowed ? 3 : 1) * (6 + 2 * intervals);
-    return std::max(most / rounds, least);
+// Returns the entries of all lists that a storage block holds, at most `wanted`. Throws Error if
+// these are fewer than the tiles of a picture, since a cell fragment may cover all.
+std::size_t entries_that_fit(std::size_t wanted, int width, int height) {
+    const Capabilities& capabilities = gl::current_context()->capabilities();
+    const std::size_t most =
+        std::min(wanted, static_cast<std::size_t>(capabilities.max_storage_bytes) / 4);
+    const std::size_t tiles = TileLists::count(width) * TileLists::count(height);
+    if (tiles > most) {
+        fail(
+            "image: found {} x {} pixels, which are {} tiles, expected at most {} tiles for a mesh "
+            "on codes: {}; or use --context cpu",
+            width, height, tiles, most, capabilities.renderer);
+    }
+    return most;
 }
 
 // Writes elements to a buffer, which grows if they do not fit.
@@ -74,6 +79,27 @@ gl::Defines tet_code_defines(const ProjectPlan& plan, const GlProjectTables& tab
     return defines;
 }
 
+// Software rasterisers end all loops of an invocation together after 65535 rounds, also those that
+// integrate a fragment, and draw up to 16 pixels at once, whose rounds add up if they meet other
+// fragments; with one entry, they meet the same. GPUs have no such bound: the numbers of entries
+// and tiles alone bound a dispatch there, and nothing measures its time.
+int most_in_dispatch(const ProjectPlan& plan, int intervals, const Capabilities& capabilities) {
+    constexpr std::int64_t most_rounds = 65000, most = most_rounds / 16;
+    if (!capabilities.software) return static_cast<int>(most);
+    // Look-ups before the window, in it and behind it, each with two searches.
+    const std::int64_t rounds = 2 + (plan.windowed ? 3 : 1) * (6 + 2 * std::int64_t{intervals});
+    if (rounds > most_rounds) {
+        fail(
+            "transfer function: found {} intervals, which take up to {} rounds of a loop to find, "
+            "expected at most {} rounds with {}, which ends longer loops; or use --context cpu",
+            intervals, rounds, most_rounds, capabilities.renderer);
+    }
+    // Pieces of a lit segment are 1 / 256 of it or longer, and each may be shortened some times.
+    constexpr std::int64_t most_lit = 16;
+    const std::int64_t fitting = std::max<std::int64_t>(most / rounds, 1);
+    return static_cast<int>(plan.lighting ? std::min(fitting, most_lit) : fitting);
+}
+
 struct GlTetCodes::Leaves : CodeLeaves {
     Leaves(GlTetCodes& owner, const TetProjector& projection,
            const DrawOrder<CellFragment>& fragments)
@@ -93,11 +119,12 @@ struct GlTetCodes::Leaves : CodeLeaves {
 
 GlTetCodes::GlTetCodes(const SceneMesh& mesh, const TransferFunction& transfer_function,
                        const ProjectPlan& plan, int width, int height,
-                       std::shared_ptr<VisibilityOrder> order)
+                       std::shared_ptr<VisibilityOrder> order, std::size_t entries)
     : ProjectRenderer(mesh, transfer_function, plan, std::move(order)),
       width_(width),
       height_(height),
-      picture_(plan.code_bits() > 8 ? PixelPacking::shorts : PixelPacking::bytes, width, height) {
+      picture_(plan.code_bits() > 8 ? PixelPacking::shorts : PixelPacking::bytes, width, height),
+      most_entries_(entries_that_fit(entries, width, height)) {
     if (plan_.nothing_visible) return;
     Stage tables("tables");
     tables_.emplace(transfer_function_, plan_);
@@ -105,7 +132,8 @@ GlTetCodes::GlTetCodes(const SceneMesh& mesh, const TransferFunction& transfer_f
     if (plan_.lighting)
         gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
     program_.emplace("projection/codes.comp", tet_code_defines(plan_, *tables_));
-    most_of_list_ = most_in_dispatch(plan_, tables_->intervals());
+    most_of_list_ =
+        most_in_dispatch(plan_, tables_->intervals(), gl::current_context()->capabilities());
     find_visible_cell_fragments();
     const auto cell_fragments = static_cast<std::size_t>(visible_->count());
     records_.resize(std::min(batch_size, cell_fragments));
@@ -169,18 +197,26 @@ void GlTetCodes::composite(const TetProjector& projector,
     for (std::size_t first = 0; first < count; first += records_.size()) {
         Stage listing("geometry");
         const std::size_t in_batch = std::min(records_.size(), count - first);
-        list(projector, cell_fragments.subrange(first, in_batch));
-        upload(in_batch);
+        project(projector, cell_fragments.subrange(first, in_batch));
+        upload_records(in_batch);
         list_ms_ += listing.end();
-        picture.bind(picture_binding, 0, height_);
-        dispatch();
-        gl::api().Finish();  // before the buffers are written again
-        check_interrupt();
+        const auto areas = std::span<const PixelArea>(areas_).first(in_batch);
+        for (std::size_t begin = 0; begin < in_batch;) {
+            Stage tiling("geometry");
+            const std::size_t fitting = TileLists::fitting(areas.subspan(begin), most_entries_);
+            list(begin, fitting);
+            list_ms_ += tiling.end();
+            picture.bind(picture_binding, 0, height_);
+            dispatch();
+            gl::api().Finish();  // before the buffers are written again
+            check_interrupt();
+            begin += fitting;
+        }
         batch_done();
     }
 }
 
-void GlTetCodes::list(const TetProjector& projector, const DrawOrder<CellFragment>& batch) {
+void GlTetCodes::project(const TetProjector& projector, const DrawOrder<CellFragment>& batch) {
     const PixelArea nowhere{0, -1, 0, -1};
     const std::size_t count = batch.items.size();
     parallel_for(static_cast<std::int64_t>(count), 64, [&](std::int64_t index) {
@@ -203,23 +239,25 @@ void GlTetCodes::list(const TetProjector& projector, const DrawOrder<CellFragmen
         if (batch.items[i].tet != last_tet) ++tets_drawn_;
         last_tet = batch.items[i].tet;
     }
-    lists_.list(std::span(areas_).first(count), width_, height_,
-                [&](std::size_t number, int column, int row) {
-                    return entry_of(number, areas_[number], column, row);
+}
+
+void GlTetCodes::upload_records(std::size_t count) {
+    write(std::span<const SilhouetteRecord>(records_).first(count), record_buffer_);
+    record_buffer_.bind_storage(record_binding);
+    if (gradient_records_.empty()) return;
+    write(std::span<const GradientRecord>(gradient_records_).first(count), gradient_buffer_);
+    gradient_buffer_.bind_storage(gradient_binding);
+}
+
+void GlTetCodes::list(std::size_t first, std::size_t count) {
+    lists_.list(std::span(areas_).subspan(first, count), width_, height_,
+                [&](std::size_t item, int column, int row) {
+                    return entry_of(first + item, areas_[first + item], column, row);
                 });
+    if (lists_.tiles.empty()) return;
     // Longest lists first, so that those which a dispatch draws are the first ones.
     std::ranges::sort(lists_.tiles, std::ranges::greater(),
                       [](const TileLists::Tile& tile) { return tile.end - tile.first; });
-}
-
-void GlTetCodes::upload(std::size_t count) {
-    if (lists_.tiles.empty()) return;
-    write(std::span<const SilhouetteRecord>(records_).first(count), record_buffer_);
-    record_buffer_.bind_storage(record_binding);
-    if (!gradient_records_.empty()) {
-        write(std::span<const GradientRecord>(gradient_records_).first(count), gradient_buffer_);
-        gradient_buffer_.bind_storage(gradient_binding);
-    }
     write(std::span<const TileLists::Tile>(lists_.tiles), tile_buffer_);
     write(std::span<const std::uint32_t>(lists_.entries), entry_buffer_);
     tile_buffer_.bind_storage(tile_binding);

@@ -20,15 +20,25 @@ namespace lamina {
 // Returns the definitions of projection/codes.comp.
 gl::Defines tet_code_defines(const ProjectPlan& plan, const GlProjectTables& tables);
 
+// Returns the number of entries of a tile's list for one dispatch of projection/codes.comp.
+// `intervals`: GlProjectTables::intervals(). Throws Error if the context's loops are too short for
+// one cell fragment.
+int most_in_dispatch(const ProjectPlan& plan, int intervals, const Capabilities& capabilities);
+
 // Draws a mesh on codes, for Target::emulated and ProjectDither::after_blend, in the current OpenGL
 // context, which must outlive it. A compute shader composites the cell fragments that are listed
 // for each tile of the picture, in visibility order.
 class GlTetCodes : public ProjectRenderer {
   public:
-    // The plan must have Blending::registers. The mesh must outlive the renderer.
+    static constexpr std::size_t most_entries = std::size_t{1} << 24;  // of all lists: 64 MiB
+
+    // The plan must have Blending::registers. The mesh must outlive the renderer. `entries`: bound
+    // on the entries of all tiles' lists at a time; the context may allow fewer. Throws Error if a
+    // cell fragment that fills the picture has more.
     GlTetCodes(const SceneMesh& mesh, const TransferFunction& transfer_function,
                const ProjectPlan& plan, int width, int height,
-               std::shared_ptr<VisibilityOrder> order = nullptr);
+               std::shared_ptr<VisibilityOrder> order = nullptr,
+               std::size_t entries = most_entries);
 
     void draw(const View& view, Progress* progress = nullptr) override;
     int step_count() const override;
@@ -44,8 +54,10 @@ class GlTetCodes : public ProjectRenderer {
     // Composites cell fragments onto the picture, or onto the opacity of a leaf.
     void composite(const TetProjector& projector, const DrawOrder<CellFragment>& cell_fragments,
                    const GlPixels& picture, const std::function<void()>& batch_done);
-    void list(const TetProjector& projector, const DrawOrder<CellFragment>& batch);
-    void upload(std::size_t count);
+    void project(const TetProjector& projector, const DrawOrder<CellFragment>& batch);
+    void upload_records(std::size_t count);
+    // Lists cell fragments of the batch, from `first` on, for the tiles.
+    void list(std::size_t first, std::size_t count);
     void dispatch();
 
     int width_, height_;
@@ -55,6 +67,7 @@ class GlTetCodes : public ProjectRenderer {
     GlPixels picture_;
     std::optional<GlCodeTree> tree_;  // if the plan has one
     int most_of_list_ = 0;            // entries of a tile's list that a dispatch draws
+    std::size_t most_entries_;        // of all lists
     gl::Timeline timeline_;
     double list_ms_ = 0;
     // The following belong to a batch.

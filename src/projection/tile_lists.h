@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -28,10 +31,39 @@ struct TileLists {
         return (static_cast<std::size_t>(pixels) + size - 1) / size;
     }
 
-    // `areas`: the pixels inside the picture that each item may cover; may be empty.
+    // Returns the number of tiles that an item covers: of its entries.
+    static std::size_t count(const PixelArea& area) {
+        if (area.empty()) return 0;
+        const auto tiles = [](int first, int last) {
+            return static_cast<std::size_t>(last / size - first / size + 1);
+        };
+        return tiles(area.first_column, area.last_column) * tiles(area.first_row, area.last_row);
+    }
+
+    // Returns the number of entries that list() would make.
+    static std::size_t count(std::span<const PixelArea> areas) {
+        std::size_t sum = 0;
+        for (const PixelArea& area : areas) sum += count(area);
+        return sum;
+    }
+
+    // Returns how many items, from the first on, have at most `most` entries together: one or more,
+    // unless there are none.
+    static std::size_t fitting(std::span<const PixelArea> areas, std::size_t most) {
+        std::size_t items = 0;
+        for (std::size_t sum = 0; items < areas.size(); ++items) {
+            sum += count(areas[items]);
+            if (sum > most) break;
+        }
+        return std::max(items, std::min<std::size_t>(areas.size(), 1));
+    }
+
+    // `areas`: the pixels inside the picture that each item may cover; may be empty. Their
+    // entries must be fewer than 2^32, which callers see to by count() or fitting().
     // `entry(item, column, row)`: what is listed of an item for the tile of this upper left pixel.
     template <typename Entry>
     void list(std::span<const PixelArea> areas, int width, int height, const Entry& entry) {
+        assert(count(areas) <= std::numeric_limits<std::uint32_t>::max());
         const std::size_t columns = count(width);
         const auto for_each_tile = [&](const auto& visit) {
             for (std::size_t item = 0; item < areas.size(); ++item) {

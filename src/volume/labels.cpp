@@ -288,6 +288,7 @@ Volume with_descriptions(const Volume& volume, std::vector<Label> described) {
             one.code = known.code;
             known = std::move(one);
         } else if (!labels.renumbered) {
+            places.emplace(one.number, labels.list.size());
             labels.list.push_back(std::move(one));
         }
     }

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "image/coded_image.h"
+#include "volume/labels.h"
 
 namespace lamina {
 namespace {
@@ -66,8 +67,8 @@ std::string header_text(const Grid& grid, const char* type, const std::string& s
     text +=
         fmt::format("endian: {}\n", std::endian::native == std::endian::little ? "little" : "big");
     text += fmt::format("encoding: raw\nspace origin: {}\n", vector_text(grid.origin));
-    if (grid.lookup == VolumeLookup::nearest) text += "lamina_lookup:=nearest\n";
-    return text;
+    const bool nearest = grid.lookup == VolumeLookup::nearest;
+    return text + (nearest ? "lamina_lookup:=nearest\n" : "");
 }
 
 // Largest header and line that are read (volume_files/nrrd.cpp), less what else is in them, in
@@ -145,7 +146,12 @@ void write_nrrd_header(AtomicFile& file, const Grid& grid, SampleType type,
 }
 
 void write_nrrd(AtomicFile& file, const Volume& volume) {
-    const std::string keys = (volume.labels() ? segment_keys(*volume.labels()) : "") + "\n";
+    // Readers take a volume with segments for labels, and one whose samples look like labels.
+    const bool labels = volume.grid().lookup == VolumeLookup::nearest;
+    std::string keys;
+    if (labels && volume.labels()) keys = segment_keys(*volume.labels());
+    if (!labels && label_signs(volume).are_labels()) keys = "lamina_lookup:=linear\n";
+    keys += "\n";
     if (volume.labels() && volume.labels()->renumbered) return write_labels(file, volume, keys);
     file.write(header_text(volume.grid(), name_of(volume.type()), volume.quantity().unit) + keys);
     file.write(volume.data(), volume.byte_count());

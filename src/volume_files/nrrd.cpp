@@ -480,6 +480,7 @@ struct NrrdHeader {
     double first_time = 0, time_step = NAN;  // of the axis of times; NaN: not known
     std::string time_unit;
     std::string sample_unit;
+    bool is_field = false;        // says that its samples are no labels
     std::string labels_by{};      // what says that samples are labels, for a message; else empty
     std::vector<Label> labels{};  // of a segmentation
 };
@@ -559,6 +560,7 @@ void take_label_keys(const std::map<std::string, std::string>& keys, const Volum
     } else if (own != keys.end() && own->second == "nearest") {
         header.labels_by = fmt::format("its key {}", lookup_key);
     }
+    header.is_field = own != keys.end() && own->second == "linear";
 }
 
 NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeRequest& request) {
@@ -627,7 +629,9 @@ Volume open_nrrd(const std::filesystem::path& path, const VolumeRequest& request
     NrrdHeader header = read_nrrd_header(path, request);
     if (!header.labels_by.empty())
         take_for_labels(path.string(), header.labels_by, use, header.grid);
-    Volume volume = open_stored(header.grid, header.data, use);
+    VolumeUse told = use;
+    if (!use.lookup && header.is_field) told.lookup = VolumeLookup::linear;
+    Volume volume = open_stored(header.grid, header.data, told);
     if (!header.labels.empty()) volume = with_descriptions(volume, std::move(header.labels));
     if (use.contents != nullptr) fill_nrrd_contents(header, *use.contents);
     return volume.measuring({"", header.sample_unit});

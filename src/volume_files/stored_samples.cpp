@@ -396,8 +396,8 @@ bool taken_by_signs(const std::string& file, const LabelSigns& signs) {
         fmt::format("{:.3g} % of them equal their six neighbours", 100 * signs.equal);
     if (signs.are_labels()) {
         warn(
-            fmt::format("{}: its samples are taken for labels, as {}: \"lookup\": \"linear\" in "
-                        "the volume interpolates between them",
+            fmt::format("{}: its samples are taken for labels, as {}; \"lookup\": \"linear\" in "
+                        "the volume would interpolate between them",
                         file, equal));
         return true;
     }

@@ -157,8 +157,8 @@ void take_for_labels(const std::string& file, const std::string& who, const Volu
     if (use.lookup) return;
     grid.lookup = VolumeLookup::nearest;
     warn(
-        fmt::format("{}: its samples are labels, as {} says: \"lookup\": \"linear\" in the volume "
-                    "interpolates between them",
+        fmt::format("{}: its samples are labels, as {} says; \"lookup\": \"linear\" in the volume "
+                    "would interpolate between them",
                     file, who));
 }
 

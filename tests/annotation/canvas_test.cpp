@@ -79,6 +79,48 @@ TEST(Canvas, ALineHasItsLengthAndThickness) {
     EXPECT_NEAR(area_of(*layer), 25 * 1.5, rounding);  // 20, 15, 25 are a right triangle's
 }
 
+// A dot above the shape moves the rows at which its parts meet.
+TEST(Canvas, FillsTallShapesWithoutSeams) {
+    const auto fill = [](double dot) {
+        Outline path;
+        path.move_to({5.3, 9.1});
+        path.line_to({290.7, 120.9});  // beyond the right end
+        path.line_to({13.2, 391.4});
+        if (dot > 0) {
+            path.move_to({1, dot});
+            path.line_to({1, dot + 1});
+            path.line_to({2, dot + 1});
+            path.line_to({2, dot});
+        }
+        Canvas canvas(200, 400, ImageColorSpace::linear);
+        canvas.fill(path, white);
+        return canvas.take();
+    };
+    const auto alone = fill(0);
+    for (const double dot : {1.0, 4.0}) {
+        auto dotted = Image(*fill(dot));
+        EXPECT_EQ(dotted.pixel(1, int(dot))[3], 1);
+        for (int c = 0; c < 4; ++c) dotted.pixel(1, int(dot))[c] = 0;
+        EXPECT_EQ(dotted.rgba, alone->rgba);
+    }
+    // Rows in the middle are full from the left edge on, as far as the picture reaches.
+    EXPECT_EQ(alone->pixel(100, 130)[3], 1);
+    EXPECT_EQ(alone->pixel(199, 130)[3], 1);
+    EXPECT_EQ(alone->pixel(199, 391)[3], 0);
+}
+
+TEST(Canvas, FillsAShapeAlikeAfterOthers) {
+    const Outline shape = line_outline({3.1, 140.7}, {96.2, 2.9}, 1.7);
+    Canvas used(100, 150, ImageColorSpace::linear), fresh(100, 150, ImageColorSpace::linear);
+    const Paint unseen{glm::dvec3(1), 0};
+    used.fill(line_outline({-10, -10}, {120, 160}, 3), unseen);
+    used.fill(disk_outline({80, 70}, 60.3), unseen);
+    used.fill(outline_of({20.5, 3.25, 300, 140}), unseen);
+    used.fill(shape, white);
+    fresh.fill(shape, white);
+    EXPECT_EQ(used.take()->rgba, fresh.take()->rgba);
+}
+
 TEST(Canvas, LaysShapesOverOneAnother) {
     Canvas canvas(2, 1, ImageColorSpace::linear);
     canvas.fill(Rectangle{0, 0, 1, 1}, {{1, 0, 0}, 0.5});

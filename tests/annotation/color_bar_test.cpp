@@ -167,15 +167,12 @@ TEST(ColorBar, ShowsASingleValue) {
               display_code(float(color.r), ImageColorSpace::linear));
 }
 
-TEST(ColorBar, ShortensTextsToTheirRoom) {
-    const AnnotationStyle style(scene_with(colorful()));
-    Font font;
-    Pen pen(style, font, nullptr);
-    EXPECT_EQ(fitted_text(pen, "Hippocampus", 10, 1000), "Hippocampus");
-    const std::string shorter = fitted_text(pen, "Großhirnrinde", 10, 40);
-    EXPECT_LE(pen.width(shorter, 10), 40);
-    EXPECT_TRUE(shorter.ends_with("\u2026"));
-    EXPECT_TRUE(characters_of(shorter));
+TEST(ColorBar, NamesAndUnitsOfAnyLengthTakeLittleRoom) {
+    AnnotatedData data = measured(0, 1);
+    data.quantity = {std::string(1'000'000, 'n'), std::string(1'000'000, 'u')};
+    data.length_unit = std::string(1'000'000, 'm');
+    const DrawnBar drawn(scene_with(colorful()), data);
+    EXPECT_LT(drawn.bar.block.size.x, 2 * widest_name * drawn.style.em);
 }
 
 }  // namespace

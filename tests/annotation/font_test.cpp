@@ -32,6 +32,12 @@ TEST(Font, RejectsWhatIsNoUtf8) {
     EXPECT_NO_THROW(check_text("x", "Größe"));
 }
 
+TEST(Font, RefusesTextsThatNoPictureHolds) {
+    EXPECT_NO_THROW(check_text("x", std::string(longest_text, 'a')));
+    expect_error([] { check_text("image.annotations.title.text", std::string(10'001, 'a')); },
+                 {"image.annotations.title.text", "10001 bytes", "at most 10000"});
+}
+
 // Advances of DejaVu Sans 2.37 in its table hmtx, of 2048 to the em: A 1401, figures 1303.
 TEST(Font, IsDejaVuSans) {
     Font font;
@@ -63,6 +69,36 @@ TEST(Font, CountersOfLettersAreEmpty) {
     const int column = 10 + 1612 * 50 / 2048, row = 90 - 36;
     EXPECT_EQ(layer->pixel(column, row)[3], 0);
     EXPECT_EQ(layer->pixel(17, row)[3], 1);  // the stem
+}
+
+// The longest beginning that leaves room for the ellipsis, found by trial.
+TEST(Font, ShortensTextsToTheirRoom) {
+    Font font;
+    const std::string text = "Großhirnrinde";
+    const std::vector<std::string> beginnings = {
+        "",        "G",        "Gr",        "Gro",        "Groß",        "Großh",        "Großhi",
+        "Großhir", "Großhirn", "Großhirnr", "Großhirnri", "Großhirnrin", "Großhirnrind", text};
+    for (double most = 0; most < 90; most += 0.5) {
+        std::string expected = "\u2026";
+        for (const std::string& beginning : beginnings)
+            if (font.width(beginning + "\u2026", 10) <= most) expected = beginning + "\u2026";
+        if (font.width(text, 10) <= most) expected = text;
+        EXPECT_EQ(font.fitted(text, 10, most), expected) << most;
+    }
+    EXPECT_EQ(font.fitted("", 10, 0), "");
+}
+
+TEST(Font, ReadsTextsOnlyAsFarAsTheirRoomGoes) {
+    Font font;
+    EXPECT_LT(font.fitted(std::string(64'000'000, 'a') + "\u6f22", 10, 100).size(), 30u);
+    EXPECT_TRUE(font.missing().empty());
+    // Combining characters take no room.
+    std::string accents;
+    while (accents.size() < 1'000'000) accents += "\u0301";
+    ASSERT_EQ(font.width("\u0301", 10), 0);
+    const std::string fitted = font.fitted(accents, 10, 100);
+    EXPECT_LE(fitted.size(), longest_text + 3);
+    EXPECT_TRUE(characters_of(fitted));
 }
 
 TEST(Font, TellsWhatItLacks) {

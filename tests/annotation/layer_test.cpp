@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "annotation/annotation_layer.h"
 #include "annotation/layout.h"
 #include "image/coded_image.h"
@@ -143,7 +145,45 @@ TEST(AnnotationLayer, SaysWhatItCannotShow) {
     AnnotatedData many = plain_data();
     many.are_labels = true;
     for (int i = 0; i < 100; ++i) many.labels.push_back({1, "1"});
+    many.labels.back().name = "\u6f22";  // has no room, so it needs no glyph
     EXPECT_NE(said(scene, many).find("of 100 labels"), std::string::npos);
+    EXPECT_EQ(said(scene, many).find("U+6F22"), std::string::npos);
+}
+
+TEST(AnnotationLayer, SmallestPicturesHoldNumbers) {
+    const test::HeardWarnings heard;
+    for (const auto& [width, height] : {std::pair(1, 1), {32, 32}, {1, 200}, {200, 1}}) {
+        for (const double size : {Annotation::least_size, 1.0, Annotation::largest_size}) {
+            for (const bool labels : {false, true}) {
+                Scene scene = plain_scene();
+                scene.width = width;
+                scene.height = height;
+                Annotation every;
+                every.size = size;
+                Annotations& wanted = scene.annotations;
+                wanted.colorbar = wanted.labels = wanted.scale_bar = wanted.axes = wanted.box =
+                    every;
+                every.text = "Title\nof two lines";
+                wanted.title = every;
+                wanted.texts = {every, every};
+                AnnotatedData data = plain_data();
+                data.quantity = {"Temperature", "K"};
+                data.length_unit = "mm";
+                data.are_labels = labels;
+                if (labels) data.labels = {{0, "0"}, {1, "1", "Femur"}, {0.5, "2", "Tibia"}};
+                const PictureMargins margins = annotation_margins(scene, data);
+                EXPECT_LE(margins.left + margins.right, 0.6 * width + 1e-12);
+                EXPECT_LE(margins.top + margins.bottom, 0.6 * height + 1e-12);
+                scene.camera = Camera{};
+                Image picture(width, height);
+                std::ranges::fill(picture.rgba, 0.5f);
+                const auto layer = annotation_layer(scene, data, picture);
+                ASSERT_EQ(layer->rgba.size(), picture.rgba.size());
+                EXPECT_TRUE(std::ranges::all_of(
+                    layer->rgba, [](float number) { return number >= 0 && number <= 1; }));
+            }
+        }
+    }
 }
 
 TEST(AnnotationLayer, RefusesTextsAndFormatsThatAreNone) {

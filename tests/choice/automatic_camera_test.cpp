@@ -194,7 +194,8 @@ TEST(Orientation, EveryAxisCanBeUpAndFrontsAreRightHanded) {
     // A patient upside down is still seen from in front (+y in RAS).
     const Orientation head = of_cube(WorldAxes::right_anterior_superior, UpAxis::minus_z);
     EXPECT_EQ(head.front.toward, glm::dvec3(0, 1, 0));
-    EXPECT_TRUE(head.patient);
+    const auto left = turned(head.front, turn_to(ViewSide::left, head)).toward;
+    EXPECT_NEAR(left.x, -1, 1e-15);  // the patient's left
     EXPECT_FALSE(of_cube(WorldAxes::right_anterior_superior, UpAxis::plus_y).patient);
 }
 

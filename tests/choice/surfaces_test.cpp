@@ -125,6 +125,22 @@ TEST(Surfaces, OfASmoothFieldLetInnerOnesShow) {
     EXPECT_NE(function.at(knots[2].value).color, knots.back().optics.color);
 }
 
+// Most values are near the upper end, and the four shares lie apart from it and from one another.
+TEST(Surfaces, AreAtMostFourOfASolidThing) {
+    const Volume volume = test::volume_of(
+        test::grid_of({100, 20, 20}, Centering::node),
+        [](double i, double, double) { return i < 60 ? 0 : .35 + .65 * (i - 60) / 39; });
+    const MinMaxBricks bricks = measure_bricks(volume);
+    const auto [scene, reasons] = choose(picture_scene(), VolumeField(volume, bricks));
+    const auto knots = scene.transfer_function->knots();
+    std::size_t tops = 0;
+    for (std::size_t i = 1; i + 1 < knots.size(); ++i) {
+        tops += knots[i].optics.extinction > knots[i - 1].optics.extinction &&
+                knots[i].optics.extinction > knots[i + 1].optics.extinction;
+    }
+    EXPECT_LE(tops, 4u) << reasons[0];
+}
+
 TEST(AutomaticLight, ShowsSurfacesButNotNoise) {
     const Scan scan;
     const auto [lit, reasons] = choose(picture_scene(), scan.field);

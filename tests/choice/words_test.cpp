@@ -194,7 +194,9 @@ TEST(OpacityWords, RunOverWhatShows) {
 TEST(OpacityWords, HaveTheAutomaticDensity) {
     const Cube cube;
     for (const char* const word : {"linear", "sigmoid"}) {
-        const Scene scene = chosen_with({.opacity = word, .range = "5,50"}, cube.field);
+        Scene square = open_scene();
+        square.width = square.height = 512;  // as the picture in which the density is measured
+        const Scene scene = chosen_with({.opacity = word, .range = "5,50"}, cube.field, square);
         const TransferFunction& function = *scene.transfer_function;
         const double full = function.at(50).extinction;
         EXPECT_NEAR(function.at(20).extinction / full, opacity_curve(word)->at(1. / 3), 1e-3);

@@ -130,7 +130,7 @@ TEST_F(LabelFiles, OfNiftiAreKnownByTheirIntent) {
     const auto path =
         write("a.nii", testing::with_number(corpus_file("nifti/one.nii"), 68, std::int16_t{1002}));
     EXPECT_EQ(read_volume(path).grid().lookup, VolumeLookup::nearest);
-    expect_said("a.nii: its samples are labels, as intent_code 1002 says: \"lookup\": \"linear\"");
+    expect_said("a.nii: its samples are labels, as intent_code 1002 says; \"lookup\": \"linear\"");
     EXPECT_EQ(read_volume(path, as_linear()).grid().lookup, VolumeLookup::linear);
     EXPECT_TRUE(heard_.texts.empty());
 }
@@ -147,7 +147,7 @@ TEST_F(LabelFiles, OfSlicerHaveNamesAndColours) {
     ASSERT_EQ(heard_.texts.size(), 1u) << heard_.all();
     expect_said(
         "a.seg.nrrd: its samples are labels, as the list of segments (1 is \"liver\", 4 is \"left "
-        "kidney\" (channel 1)) says: \"lookup\": \"linear\"");
+        "kidney\" (channel 1)) says; \"lookup\": \"linear\"");
     ASSERT_EQ(volume.labels()->list.size(), 1u);
     const Label& liver = volume.labels()->list[0];
     EXPECT_EQ(liver.name, "liver");

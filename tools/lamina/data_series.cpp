@@ -110,6 +110,15 @@ void DataSeries::begin(nlohmann::json& document) {
         if (path == nullptr) continue;
         *pattern = file_ ? file_ : take(*path, key);
     }
+    if (volume_ || mesh_) return;
+    for (const char* const key : {"mesh", "volume"}) {  // as in at()
+        const std::string* const path = path_in(document, key);
+        if (path == nullptr) continue;
+        nlohmann::json& data = document[key];
+        if (data.is_string()) data = {{"path", *path}};
+        data["time"] = steps_.front();
+        return;
+    }
 }
 
 Scene DataSeries::at(Scene scene, std::int64_t step) const {

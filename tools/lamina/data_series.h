@@ -35,7 +35,7 @@ class DataSeries {
     // Returns the file that the scene of the first step is read from; if `file` is a pattern, the
     // pattern's first file.
     const std::string& first_file() const { return first_file_; }
-    // Replaces the patterns in a scene's document by the first step's files.
+    // Replaces the patterns in a scene's document by the first step's files, or sets its time.
     void begin(nlohmann::json& document);
 
     const std::vector<std::int64_t>& steps() const { return steps_; }

@@ -22,6 +22,8 @@
 #include "plan/plan.h"
 #include "render/draw_context.h"
 #include "scene_files/scene_reader.h"
+#include "volume_files/volume_file.h"
+#include "volume_files/volume_opening.h"
 
 namespace lamina {
 namespace {
@@ -60,6 +62,7 @@ struct Command {
     Wire wire = Wire::float32;            // open
     unsigned long long memory_limit = 0;  // open: bytes, 0: unchanged
     bool many_frames = false;             // open
+    bool in_files = false;                // open: the volume stays in its files
     bool has_camera = false;              // draw: `camera` replaces the last one
     Camera camera{};                      // draw
 };
@@ -117,6 +120,25 @@ Command next_command(const Ranks& ranks) {
     }
 }
 
+// Tells whether the volume of a scene stays in its files.
+bool stays_in_files(const Scene& scene, SceneData& data) {
+    return scene.volume_file() != nullptr && !scene.draws_mesh() &&
+           !data.volume(scene)->volume.in_memory();
+}
+
+// Opens a volume in memory or in its files, as rank 0 has it. Rank 0 decides, because it opened the
+// volume before it chose whether there is light, which takes memory. Its warnings are rank 0's,
+// too.
+SceneData opened(const Scene& scene, bool in_files) {
+    const VolumeFile* const file = scene.volume_file();
+    if (file == nullptr || scene.draws_mesh()) return {};
+    VolumeUse use;
+    if (in_files) use.residence = VolumeUse::Residence::in_files;
+    Warnings said;
+    return keep_warnings(said,
+                         [&] { return SceneData(open_volume(file->path, file->selection, use)); });
+}
+
 std::unique_ptr<SharedRenderer> open(const Ranks& ranks, const Command& command,
                                      const SceneMessage& message,
                                      const std::shared_ptr<TableCache>& tables) {
@@ -125,9 +147,9 @@ std::unique_ptr<SharedRenderer> open(const Ranks& ranks, const Command& command,
         restrict_instructions_as_asked();
         if (command.memory_limit > 0) set_memory_limit(command.memory_limit);
         const Scene scene = message.scene();
-        renderer =
-            std::make_unique<SharedRenderer>(ranks, command.wire, scene, SceneData(),
-                                             message.omissions(), command.many_frames, tables);
+        renderer = std::make_unique<SharedRenderer>(
+            ranks, command.wire, scene, opened(scene, command.in_files), message.omissions(),
+            command.many_frames, tables);
         renderer->set_up();
     });
     renderer->check_plan();
@@ -179,13 +201,15 @@ Leader::~Leader() {
 
 int Leader::open(const Scene& scene, SceneData data, const OmissionSwitch& omissions,
                  bool many_frames) {
+    const bool in_files = stays_in_files(scene, data);
     auto renderer = std::make_unique<SharedRenderer>(ranks_, wire_, scene, std::move(data),
                                                      omissions, many_frames, tables_);
     Command command{.kind = Command::Kind::open,
                     .scene = next_,
                     .wire = wire_,
                     .memory_limit = memory_limit_is_given() ? memory_limit() : 0,
-                    .many_frames = many_frames};
+                    .many_frames = many_frames,
+                    .in_files = in_files};
     SceneMessage message(scene, omissions);
     send(ranks_, command);
     message.broadcast(ranks_);
