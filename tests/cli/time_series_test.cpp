@@ -168,6 +168,11 @@ TEST_F(TimeSeriesRun, StepsAreReadFromTheTimeAxisOfAFile) {
     EXPECT_EQ(picture("out/p_02.exr"), single({"volume=v_02.nrrd"}));
     std::filesystem::remove_all(folder / "out");
     expect_bad("scene.json", "1:3", 1, {"4d.nrrd", "time", "found 3", "0 to 2"});
+    // A series may begin with a later step.
+    const std::string said = run_well("scene.json", "1:2", "wrote 2 of 2");
+    EXPECT_EQ(said.find("time 0"), std::string::npos) << said;
+    EXPECT_EQ(picture("out/p_01.exr"), single({"volume=v_01.nrrd"}));
+    EXPECT_EQ(picture("out/p_02.exr"), single({"volume=v_02.nrrd"}));
 }
 
 TEST_F(TimeSeriesRun, MeshesAreReadFromFilesAndFromAPvd) {

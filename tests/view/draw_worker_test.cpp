@@ -106,7 +106,7 @@ TEST_F(DrawWorkers, TheFullPictureMatchesTheSession) {
     const auto first = wait_full();
     Session session(request_.scene, native);
     EXPECT_EQ(first->full->rgba, session.draw().rgba);
-    EXPECT_EQ(first->screen->rgb, screen_codes(session.draw(), request_.scene.png_look()));
+    EXPECT_EQ(first->screen->rgb, screen_codes(session.draw(), request_.scene.background));
     EXPECT_EQ(first->loaded, 1u);
     EXPECT_EQ(first->plan.error, session.plan().error);
     EXPECT_TRUE(first->resolved->camera.is_given());
@@ -192,7 +192,7 @@ TEST_F(DrawWorkers, TheTracerReplacesThePictureAndMeasuresIt) {
     EXPECT_EQ(end->error.mean, error.mean);
     EXPECT_EQ(end->error.l2, error.l2);
     EXPECT_GT(end->error.linf, 0);
-    EXPECT_EQ(end->screen->rgb, screen_codes(to_float(truth), request_.scene.png_look()));
+    EXPECT_EQ(end->screen->rgb, screen_codes(to_float(truth), request_.scene.background));
 }
 
 TEST_F(DrawWorkers, ScenesToTraceShowTheTruthAlone) {

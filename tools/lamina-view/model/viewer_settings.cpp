@@ -84,7 +84,7 @@ bool may_be_absent(const SettingNode& node) {
                                                     "render.project.tree"};
     return (node.kind == SettingKind::group || node.kind == SettingKind::either) &&
            (std::ranges::find(paths, node.path) != paths.end() ||
-            node.path.starts_with("image.annotations."));
+            (node.path.starts_with("image.annotations.") && !node.path.ends_with("[]")));
 }
 
 Json starting_value(const SettingNode& node, const std::string& path, const Scene& scene,
@@ -103,7 +103,7 @@ Json starting_value(const SettingNode& node, const std::string& path, const Scen
     if (node.path == "image.annotations") return {{"colorbar", true}};
     if (node.path == "image.annotations.title" || node.path == "image.annotations.texts[]")
         return {{"text", "Text"}};
-    if (node.kind == SettingKind::either && node.path.starts_with("image.annotations."))
+    if (node.kind == SettingKind::group && node.path.starts_with("image.annotations."))
         return Json::object();
     if (node.path == "volume") return {{"generate", "gaussians"}};
     if (!node.otherwise.is_null() && node.otherwise != node.automatic_word) return node.otherwise;
