@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -104,6 +105,23 @@ TEST_F(WordsRun, MistakesAreOfUsage) {
     EXPECT_EQ(units.exit_code, 1);
     EXPECT_NE(units.err.find("v.nrrd: found values from"), std::string::npos) << units.err;
     EXPECT_NE(units.err.find("expected HU for ct-bone"), std::string::npos) << units.err;
+}
+
+TEST_F(WordsRun, ForAnnotationsKeepWhatTheSceneSaysOfThem) {
+    const std::vector<std::string> own{
+        "--set",
+        R"(image.annotations={"colorbar": {"text": "T"}, "title": {"text": "old", "size": 2}})"};
+    std::ofstream(folder / "s.json") << scene(own);
+    const ProgramResult result = lamina_run(
+        {"scene", folder / "s.json", "-o", "-", "--legend", "--scale-bar", "--title", "new"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const json annotations = json::parse(result.out)["image"]["annotations"];
+    EXPECT_EQ(annotations["colorbar"]["text"], "T");
+    EXPECT_EQ(annotations["title"]["text"], "new");
+    EXPECT_EQ(annotations["title"]["size"], 2);
+    EXPECT_EQ(annotations["scale_bar"], true);
+    const json set = scene({"--legend", "--set", "image.annotations.colorbar.text=T"});
+    EXPECT_EQ(set["image"]["annotations"]["colorbar"]["text"], "T");
 }
 
 TEST_F(WordsRun, LightingIsTrueOrFalse) {

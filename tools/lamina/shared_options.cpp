@@ -149,6 +149,30 @@ VolumeRequest request_of(const RawOptions& options) {
     return request;
 }
 
+namespace {
+
+// Sets a key of an annotation that the document has already, as `true`, a text or an object: the
+// object's other keys stay. Returns false if there is none.
+bool set_annotation(nlohmann::json& document, const std::string& key, const std::string& value) {
+    constexpr std::string_view above = "image.annotations.";
+    if (!key.starts_with(above)) return false;
+    const std::string name = key.substr(above.size(), key.find('.', above.size()) - above.size());
+    const bool whole = above.size() + name.size() == key.size();
+    const nlohmann::json::json_pointer place("/image/annotations/" + name);
+    if (!document.contains(place)) return false;
+    nlohmann::json& annotation = document[place];
+    if (whole && annotation.is_object() && value == "true") return true;
+    if (whole && annotation.is_object() && name == "title") {
+        set_key(document, key + ".text", value);
+        return true;
+    }
+    if (!whole && annotation == true) annotation = nlohmann::json::object();
+    if (!whole && annotation.is_string()) annotation = {{"text", annotation}};
+    return false;
+}
+
+}  // namespace
+
 Scene load_scene(const SceneOptions& options, const std::vector<std::string>& more,
                  nlohmann::json& document, const std::function<void(nlohmann::json&)>& edit) {
     const bool piped = options.file == standard_stream;
@@ -163,7 +187,7 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
         const bool chooses = key.starts_with("volume.") || key == "mesh.time";
         if (chooses && document.contains(source) && document[source].is_string())
             document[source] = {{"path", document[source]}};
-        set_key(document, key, value);
+        if (!set_annotation(document, key, value)) set_key(document, key, value);
         keys.push_back(key);
     };
     // Throws if the document is no object, in which no keys could be set.
