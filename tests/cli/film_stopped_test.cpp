@@ -47,6 +47,7 @@ TEST_F(FilmStopped, MistakesAreFoundBeforeAnyFrameIsDrawn) {
     expect_refusal(2, "film.mp4", with({"--transparent"}), {".mp4", ".webm or .apng"});
     expect_refusal(2, "film.gif", with({"--transparent"}), {".gif", ".webm or .apng"});
     expect_refusal(2, "film.apng", with({"--fps", "0"}), {"--fps"});
+    expect_refusal(2, "film.gif", with({"--fps", "60"}), {"--fps 60", "at most 50", ".gif"});
     expect_refusal(2, "film.apng", with({"--resume", "--force"}), {"--resume and --force"});
     expect_refusal(2, "film.apng", with({"--path", "p.json"}), {"--path", "--turntable"});
     expect_refusal(2, "v.png", {"--path", "p.json"}, {"out_%04d.png"});

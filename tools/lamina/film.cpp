@@ -103,6 +103,13 @@ void Film::check(const OutputOptions& options) {
     }
     if (!options.format.empty())
         throw UsageError(fmt::format("--format {}: only with -o -", options.format));
+    // A GIF's delays are hundredths of a second, and players take those below two for slow ones.
+    constexpr int most_of_gif = 50;
+    if (options.rate() > most_of_gif &&
+        std::string(format_of_film(options.output)->suffix) == ".gif") {
+        throw UsageError(fmt::format("--fps {}: expected at most {} in a .gif, or another film",
+                                     options.rate(), most_of_gif));
+    }
 }
 
 Film::Film(const OutputOptions& options, const OutputScene& scene, const DataSeries* series,
