@@ -321,12 +321,6 @@ std::vector<glm::dvec3> kept_of(const std::vector<glm::dvec3>& pairs, const Half
     return kept;
 }
 
-// Returns what the clip keeps of a mesh that outlives the result; null if nothing is left.
-std::shared_ptr<const SceneMesh> kept_of(const SceneMesh& mesh, const Clip& clip) {
-    const std::shared_ptr<const SceneMesh> whole(std::shared_ptr<const void>(), &mesh);
-    return clipped_mesh(whole, clip, false, "mesh");
-}
-
 }  // namespace
 
 double VolumeField::spacing() const {
@@ -427,22 +421,31 @@ ValueDistribution MeshField::distribution() const {
     return ValueDistribution(std::move(values));
 }
 
+const SceneMesh* MeshField::kept_by(const Clip& clip) const {
+    if (clip != clip_) {
+        const std::shared_ptr<const SceneMesh> whole(std::shared_ptr<const void>(), &mesh_);
+        kept_ = clipped_mesh(whole, clip, false, "mesh");
+        clip_ = clip;
+    }
+    return kept_.get();
+}
+
 std::vector<glm::dvec3> MeshField::shown_points(const TransferFunction& transfer_function,
                                                 double least, const Clip& clip) const {
     if (!clip.keeps_all()) {
-        const auto kept = kept_of(mesh_, clip);
-        if (!kept) return {};
+        const SceneMesh* const kept = kept_by(clip);
+        if (kept == nullptr) return {};
         return MeshField(*kept).shown_points(transfer_function, least);
     }
     const auto points = mesh_.mesh.points();
     std::vector<char> shown(points.size());
-    std::vector<glm::dvec3> found;
     for (const Tet& tet : mesh_.mesh.tets()) {
         const ValueRange range = range_in(mesh_.scalar.values, tet);
         if (range.empty() || !(transfer_function.max_extinction(range.lo, range.hi) > least))
             continue;
         for (const std::int32_t corner : tet) shown[static_cast<std::size_t>(corner)] = 1;
     }
+    std::vector<glm::dvec3> found;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (shown[i] != 0) found.push_back(points[i]);
     }
@@ -455,8 +458,8 @@ std::array<glm::dvec3, 8> MeshField::corners() const {
 
 std::vector<double> MeshField::optical_depths(const Scene& scene) const {
     if (!scene.clip.keeps_all()) {
-        const auto kept = kept_of(mesh_, scene.clip);
-        if (!kept) return {};
+        const SceneMesh* const kept = kept_by(scene.clip);
+        if (kept == nullptr) return {};
         Scene whole = scene;
         whole.clip = {};
         return MeshField(*kept).optical_depths(whole);

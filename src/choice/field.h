@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -90,7 +91,7 @@ class VolumeField : public Field {
     const ValueCounts* values_ = nullptr;  // null: distribution() counts the values
 };
 
-// A mesh with its scalar. The mesh must outlive this object.
+// A mesh with its scalar. The mesh must outlive this object, which serves one thread at a time.
 class MeshField : public Field {
   public:
     explicit MeshField(const SceneMesh& mesh) : mesh_(mesh) {}
@@ -116,7 +117,12 @@ class MeshField : public Field {
     std::vector<double> optical_depths(const Scene& scene) const override;
 
   private:
+    // Returns what a clip keeps of the mesh; null if nothing is left. One clip in a row cuts once.
+    const SceneMesh* kept_by(const Clip& clip) const;
+
     const SceneMesh& mesh_;
+    mutable Clip clip_;  // of `kept_`
+    mutable std::shared_ptr<const SceneMesh> kept_;
 };
 
 // Returns what annotations tell of the data. `with_labels`: lists the labels that occur in them,
