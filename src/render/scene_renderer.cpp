@@ -26,7 +26,9 @@ std::vector<std::string> open_keys(const Scene& scene) {
     };
     add("transfer_function", scene.transfer_function);
     add("camera", scene.camera);
-    if (scene.lighting) add("lighting.smallest_gradient", (*scene.lighting)->smallest_gradient);
+    if (scene.lighting) add("lighting", *scene.lighting);
+    if (const Lighting* const given = given_lighting(scene.lighting))
+        add("lighting.smallest_gradient", given->smallest_gradient);
     if (scene.method != Method::trace) add("render.target", scene.target);
     if (scene.method == Method::slice) {
         const SliceSettings& slice = scene.slice;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <thread>
@@ -84,6 +85,21 @@ TEST(SceneRenderer, ChoosesSettingsAgain) {
             EXPECT_EQ(open_keys(frames.resolved().scene()), std::vector<std::string>());
         }
     }
+}
+
+TEST(OpenKeys, NameLightOrItsSmallestGradient) {
+    Scene scene = volume_scene();
+    const std::vector<std::string> others = open_keys(scene);
+    const auto added = [&] {
+        std::vector<std::string> keys = open_keys(scene);
+        std::erase_if(keys,
+                      [&](const std::string& key) { return std::ranges::count(others, key); });
+        return keys;
+    };
+    scene.lighting = automatic;
+    EXPECT_EQ(added(), std::vector<std::string>{"lighting"});
+    scene.lighting = Lighting{};
+    EXPECT_EQ(added(), std::vector<std::string>{"lighting.smallest_gradient"});
 }
 
 TEST(SceneRenderer, RepeatsOnlyWhatAChangeNeeds) {
