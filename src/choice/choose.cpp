@@ -14,6 +14,7 @@
 #include "choice/value_distribution.h"
 #include "choice/words.h"
 #include "image/coded_image.h"
+#include "scene/camera.h"
 
 namespace lamina {
 namespace {
@@ -222,8 +223,6 @@ void choose_lighting(Choices& choices, const TransferSubject& subject,
 constexpr double degree = std::numbers::pi / 180;
 constexpr double fov_y = 30;
 constexpr double margin = 1.0 / 25;  // margin of the picture as a share of its half
-// Least cosine between the data's up and the camera's; below it, the view is along the data's up.
-constexpr double least_across = 0.02;
 
 // Returns a camera's `up`: the one that it had, unless the view is along it or beyond a pole.
 glm::dvec3 upright(const glm::dvec3& up, const Axes& axes) {

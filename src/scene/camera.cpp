@@ -64,7 +64,7 @@ Camera orbit(const Grid::Bounds& box, double azimuth, double elevation, double f
     camera.center = 0.5 * (box.min + box.max);
     camera.eye = camera.center + radius / std::sin(0.5 * fov_y * radians_per_degree) * toward;
     // `up` is +y, about which turntables turn, unless the view is along it or beyond a pole.
-    if (std::cos(e) < 0.02)
+    if (std::cos(e) < least_across)
         camera.up = {-std::sin(a) * std::sin(e), std::cos(e), -std::cos(a) * std::sin(e)};
     camera.fov_y = fov_y;
     return camera;

@@ -35,6 +35,10 @@ struct View {
     glm::dvec3 eye, right, up, forward;  // orthonormal
 };
 
+// Least cosine between a camera's `up` and what is up in its picture. Below it the view is along
+// `up`, about which it cannot turn.
+inline constexpr double least_across = 0.02;
+
 inline Eye eye_of(const View& view) {
     if (view.projection == Projection::orthographic) return {view.forward, true};
     return {view.eye, false};
