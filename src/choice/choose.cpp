@@ -32,13 +32,12 @@ double largest_extinction(const TransferFunction& transfer_function) {
 // if it is drawn. `per_world_unit`: extinctions are absolute.
 std::vector<glm::dvec3> points_to_fit(const Scene& scene, const Field& field, bool per_world_unit) {
     const TransferFunction& function = *scene.transfer_function;
-    const auto corners = field.corners();
-    const double diagonal = glm::distance(corners.front(), corners.back());
     double least = seen_share * largest_extinction(function);
-    if (per_world_unit) least = std::min(least, seen_depth / diagonal);
+    if (per_world_unit) least = std::min(least, seen_depth / diagonal_of(field));
     std::vector<glm::dvec3> points;
     if (!scene.annotations.box) points = field.shown_points(function, least, scene.clip);
     if (!points.empty()) return points;
+    const auto corners = field.corners();
     return {corners.begin(), corners.end()};
 }
 
@@ -67,8 +66,7 @@ constexpr int square_side = 512;  // pixels of the picture in which depths are m
 
 // Divides extinctions by the diagonal of the data's box, so that float32 depths stay in range.
 TransferFunction per_diagonal(const TransferFunction& transfer_function, const Field& field) {
-    const auto corners = field.corners();
-    return transfer_function.attenuated(1 / glm::distance(corners.front(), corners.back()));
+    return transfer_function.attenuated(1 / diagonal_of(field));
 }
 
 // Returns the median optical depth of rays through what shows, as seen all over in a square picture
@@ -105,7 +103,7 @@ void take_density(const Field& field, Scene& scene) {
 // Returns the world length of the median ray through the data.
 double median_path(const Scene& scene, const Field& field) {
     const auto corners = field.corners();
-    const double diagonal = glm::distance(corners.front(), corners.back());
+    const double diagonal = diagonal_of(field);
     const auto even = TransferFunction::linear({{field.range().lo, {glm::dvec3(0), 1 / diagonal}}});
     return diagonal * median_depth(scene, even, corners, field);
 }

@@ -474,6 +474,11 @@ std::vector<double> MeshField::optical_depths(const Scene& scene) const {
     return depths;
 }
 
+double diagonal_of(const Field& field) {
+    const auto corners = field.corners();
+    return glm::distance(corners.front(), corners.back());
+}
+
 AnnotatedData annotated_data(const Field& field, bool with_labels) {
     const VolumeLabels* const named = field.labels();
     AnnotatedData data{field.quantity(),

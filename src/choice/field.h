@@ -125,6 +125,9 @@ class MeshField : public Field {
     mutable std::shared_ptr<const SceneMesh> kept_;
 };
 
+// Returns the diagonal of the data's box.
+double diagonal_of(const Field& field);
+
 // Returns what annotations tell of the data. `with_labels`: lists the labels that occur in them,
 // for which the values are counted.
 AnnotatedData annotated_data(const Field& field, bool with_labels);

@@ -7,13 +7,11 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <optional>
 #include <span>
 
 #include "base/error.h"
 #include "choice/field.h"
-#include "choice/levels.h"
 #include "choice/materials.h"
 #include "choice/variation.h"
 
@@ -71,9 +69,57 @@ glm::dvec3 color_at(Colors colors, double place) {
     return glm::mix(colors[first], colors[first + 1], scaled - static_cast<double>(first));
 }
 
-double diagonal_of(const Field& field) {
-    const auto corners = field.corners();
-    return glm::distance(corners.front(), corners.back());
+// A value around which extinction has a peak, so that its isosurface shows.
+struct Level {
+    double value = 0;
+    double half_width = 0;  // > 0, of the peak, in values
+    double opacity = 0;     // less than 1, of a ray that crosses the surface once, head-on
+    glm::dvec3 color{0};    // from here to the next level
+};
+
+// World lengths that extinctions follow from.
+struct LevelLengths {
+    double thickness = 1;  // over which the inside of a thing gets half the depth of its surface
+    double range = 1;  // over which values may change by their whole range, if slopes are unknown
+};
+
+// Least mean slope, in ranges of values over LevelLengths::range: extinctions stay finite.
+constexpr double least_slope = 1;
+
+double slope_at(double value, const Variation& variation, const LevelLengths& lengths) {
+    const double least = least_slope * (variation.hi() - variation.lo()) / lengths.range;
+    return std::max(variation.slope(variation.bin_of(value)), least);
+}
+
+// Returns the points that show levels: ascending, on the way from transparent values to `end`. The
+// last level is dense up to `end`. Extinctions are per world unit: a ray that crosses a peak meets
+// it for as long as the mean slope at that value says.
+//
+// A peak is a triangle: its integral over values is the extinction at its top times half_width. A
+// ray crosses the values of the peak on a length of their width over the slope.
+std::vector<TransferKnot> points_of_levels(const std::vector<Level>& levels, double end,
+                                           const glm::dvec3& end_color, const Variation& variation,
+                                           const LevelLengths& lengths) {
+    std::vector<TransferKnot> points;
+    const auto add = [&](double value, const glm::dvec3& color, double extinction) {
+        if (points.empty() || value > points.back().value)
+            points.push_back({value, {color, extinction}});
+    };
+    double inside = 0;  // extinction between two peaks
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const Level& level = levels[i];
+        const double depth = -std::log1p(-level.opacity);
+        const double top = depth * slope_at(level.value, variation, lengths) / level.half_width;
+        add(level.value - level.half_width, i > 0 ? levels[i - 1].color : level.color, inside);
+        add(level.value, level.color, top);
+        inside = std::min(depth / (2 * lengths.thickness), top);
+        if (i + 1 < levels.size()) {
+            add(level.value + level.half_width, level.color, inside);
+        } else {
+            add(end, end_color, top);
+        }
+    }
+    return points;
 }
 
 // The values with how the field varies around them.
