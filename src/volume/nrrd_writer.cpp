@@ -67,8 +67,7 @@ std::string header_text(const Grid& grid, const char* type, const std::string& s
     text +=
         fmt::format("endian: {}\n", std::endian::native == std::endian::little ? "little" : "big");
     text += fmt::format("encoding: raw\nspace origin: {}\n", vector_text(grid.origin));
-    const bool nearest = grid.lookup == VolumeLookup::nearest;
-    return text + (nearest ? "lamina_lookup:=nearest\n" : "");
+    return text;
 }
 
 // Largest header and line that are read (volume_files/nrrd.cpp), less what else is in them, in
@@ -147,10 +146,14 @@ void write_nrrd_header(AtomicFile& file, const Grid& grid, SampleType type,
 
 void write_nrrd(AtomicFile& file, const Volume& volume) {
     // Readers take a volume with segments for labels, and one whose samples look like labels.
-    const bool labels = volume.grid().lookup == VolumeLookup::nearest;
+    const auto key = [](const char* lookup) {
+        return fmt::format("{}:={}\n", nrrd_lookup_key, lookup);
+    };
     std::string keys;
-    if (labels && volume.labels()) keys = segment_keys(*volume.labels());
-    if (!labels && label_signs(volume).are_labels()) keys = "lamina_lookup:=linear\n";
+    if (volume.grid().lookup == VolumeLookup::nearest)
+        keys = key("nearest") + (volume.labels() ? segment_keys(*volume.labels()) : "");
+    else if (label_signs(volume).are_labels())
+        keys = key("linear");
     keys += "\n";
     if (volume.labels() && volume.labels()->renumbered) return write_labels(file, volume, keys);
     file.write(header_text(volume.grid(), name_of(volume.type()), volume.quantity().unit) + keys);

@@ -10,6 +10,10 @@
 
 namespace lamina {
 
+// Key under which write_nrrd() says "nearest" or "linear" (VolumeLookup) if readers could think
+// otherwise.
+inline constexpr const char* nrrd_lookup_key = "lamina_lookup";
+
 // The times of a file that holds a volume for each of several.
 struct NrrdTimes {
     std::int64_t count = 1;  // more than 1: a time axis, the slowest

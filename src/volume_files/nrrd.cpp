@@ -19,6 +19,7 @@
 #include "base/input_file.h"
 #include "image/coded_image.h"
 #include "volume/labels.h"
+#include "volume/nrrd_writer.h"
 #include "volume_files/numbered_files.h"
 
 namespace lamina {
@@ -279,8 +280,6 @@ constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
 // Most bytes of a line with a field: teem prints wrong lines into buffers of some 1000 bytes.
 constexpr std::size_t line_limit = 512;
 
-constexpr const char* lookup_key = "lamina_lookup";  // key/value pair that lamina writes
-
 // A header, cut into the lines that teem interprets and what lamina reads itself.
 struct HeaderText {
     std::string text;  // magic and fields, without `data file` and remarks
@@ -406,7 +405,7 @@ HeaderText split_header(const std::string& path, const std::string& bytes) {
                                         [](unsigned char c) { return c < ' ' && c != '\t'; });
         if (binary) fail("{}: line {} of the NRRD header holds binary bytes", path, number);
         const auto field = field_of(line);
-        const bool has_key = line.starts_with("Segment") || line.starts_with(lookup_key);
+        const bool has_key = line.starts_with("Segment") || line.starts_with(nrrd_lookup_key);
         if (const auto mark = line.find(":="); has_key && mark < line.size())
             header.keys.emplace(line.substr(0, mark), line.substr(mark + 2));
         if (field) {
@@ -553,12 +552,12 @@ void take_label_keys(const std::map<std::string, std::string>& keys, const Volum
                              shown(text("Name")));
         if (layer != "0") names += fmt::format(" (channel {})", shown(layer));
     }
-    const auto own = keys.find(lookup_key);
+    const auto own = keys.find(nrrd_lookup_key);
     if (count > 0) {
         header.labels_by =
             fmt::format("the list of segments ({}{})", names, count > most_named ? ", ..." : "");
     } else if (own != keys.end() && own->second == "nearest") {
-        header.labels_by = fmt::format("its key {}", lookup_key);
+        header.labels_by = fmt::format("its key {}", nrrd_lookup_key);
     }
     header.is_field = own != keys.end() && own->second == "linear";
 }
