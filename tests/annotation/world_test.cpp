@@ -125,16 +125,20 @@ TEST(Axes, PointAsTheWorldDoes) {
     }
 }
 
-TEST(Box, LinesLieOnTheEdgesOfTheData) {
-    const Scene scene = scene_of(cameras()[0]);
-    AnnotatedData data;
-    data.corners = box_corners({-0.5, -0.4, -0.6}, {0.9, 0.7, 0.3});
+std::shared_ptr<const Image> drawn_box(const Scene& scene, const AnnotatedData& data) {
     const AnnotationStyle style(scene);
     Font font;
     Canvas canvas(scene.width, scene.height, {});
     Pen pen(style, font, &canvas);
     draw_box(pen, Annotation{}, scene, data, [](const Rectangle&) {});
-    const auto layer = canvas.take();
+    return canvas.take();
+}
+
+TEST(Box, LinesLieOnTheEdgesOfTheData) {
+    const Scene scene = scene_of(cameras()[0]);
+    AnnotatedData data;
+    data.corners = box_corners({-0.5, -0.4, -0.6}, {0.9, 0.7, 0.3});
+    const auto layer = drawn_box(scene, data);
     int dim = 0;
     for (std::size_t from = 0; from < 8; ++from) {
         for (const std::size_t bit : {1, 2, 4}) {
@@ -154,12 +158,7 @@ TEST(Box, DrawsNothingBehindTheEye) {
     Scene scene = scene_of(cameras()[0]);
     AnnotatedData data;
     data.corners = box_corners(glm::dvec3(20, -20, 20), glm::dvec3(30, -10, 30));
-    const AnnotationStyle style(scene);
-    Font font;
-    Canvas canvas(scene.width, scene.height, {});
-    Pen pen(style, font, &canvas);
-    draw_box(pen, Annotation{}, scene, data, [](const Rectangle&) {});
-    const auto layer = canvas.take();
+    const auto layer = drawn_box(scene, data);
     for (std::size_t i = 3; i < layer->rgba.size(); i += 4) ASSERT_EQ(layer->rgba[i], 0);
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "choice/field.h"
+#include "choice/open_scene.h"
 #include "scene/camera.h"
 #include "scene_files/scene_reader.h"
 #include "support/expect_error.h"
@@ -20,14 +21,7 @@
 namespace lamina {
 namespace {
 
-Scene open_scene() {
-    Scene scene;
-    scene.width = 64;
-    scene.height = 48;
-    scene.transfer_function = automatic;
-    scene.camera = automatic;
-    return scene;
-}
+using test::open_scene;
 
 // Values of a ball in air, growing inwards.
 double ball(const glm::dvec3& p, double edge) {

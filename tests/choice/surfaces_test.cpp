@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What automatic pictures show of volumes whose parts, noise and surfaces are known.
+// Automatic pictures of volumes whose parts, noise and surfaces are known.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 
 #include "choice/choose.h"
 #include "choice/field.h"
+#include "choice/open_scene.h"
 #include "support/volume_of.h"
 
 namespace lamina {
@@ -48,11 +49,7 @@ struct Scan {
 };
 
 Scene picture_scene(int width = 64, int height = 64) {
-    Scene scene;
-    scene.width = width;
-    scene.height = height;
-    scene.transfer_function = automatic;
-    scene.camera = automatic;
+    Scene scene = test::open_scene(width, height);
     scene.lighting = automatic;
     return scene;
 }
@@ -66,7 +63,7 @@ double opacity_along(const TransferFunction& function, double from, double to) {
     return -std::expm1(-depth);
 }
 
-// Of white noise 3 values in 10,000 are more than 3.6 sigma from the mean.
+// White noise has 3 values in 10,000 that are more than 3.6 sigma from the mean.
 TEST(Surfaces, NoiseAroundAThingIsTransparent) {
     const Scan scan;
     const TransferFunction function = *choose(picture_scene(), scan.field).scene.transfer_function;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "choice/field.h"
+#include "choice/open_scene.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
 #include "support/expect_error.h"
@@ -41,14 +42,7 @@ struct Cube {
     VolumeField field;
 };
 
-Scene open_scene() {
-    Scene scene;
-    scene.width = 64;
-    scene.height = 48;
-    scene.transfer_function = automatic;
-    scene.camera = automatic;
-    return scene;
-}
+using test::open_scene;
 
 Scene chosen_with(const Words& words, const Field& field, Scene scene = open_scene()) {
     const Adjustments adjustments = adjusted_by(words);

@@ -160,7 +160,8 @@ TEST_F(WordsRun, TurntablesTurnAboutTheUpOfThePicture) {
     EXPECT_EQ(cameras[0]["up"], json::parse("[0.0, 0.0, 1.0]"));
 }
 
-// The same about the own camera of a scene: it tumbled about an `up` that leaned with the eye.
+// Turntables with a scene's own camera stand upright, too: it tumbled about an `up` that leaned
+// with the eye.
 TEST_F(WordsRun, TurntablesOfAScenesCameraStandUprightIfElevated) {
     write_bytes_to(folder / "s.json", gaussians_scene(8, 20, 15, 8).dump());
     const ProgramResult drawn =

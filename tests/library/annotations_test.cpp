@@ -67,7 +67,7 @@ TEST(Annotations, AreBesideTracedPicturesToo) {
     EXPECT_NE(session.trace().annotations, nullptr);
 }
 
-// What an automatic camera shows leaves the colour bar's part of the picture free.
+// Objects that an automatic camera fits leave the colour bar's part of the picture free.
 TEST(Annotations, GetRoomFromAnAutomaticCamera) {
     Session session(annotated_scene(R"({"colorbar": true, "title": "Above"})"), with_cpu_engine());
     const Image& picture = session.draw();

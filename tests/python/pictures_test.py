@@ -100,7 +100,7 @@ def test_transparent_files_have_straight_alpha(blob, function, tmp_path):
     assert np.array_equal(np.asarray(image.open(io.BytesIO(picture._repr_png_()))), codes)
     picture.save(tmp_path / "b.png", transparent=False)
     assert image.open(tmp_path / "b.png").mode == "RGB"
-    # The same picture within the rounding of codes: half a code, times the curve's largest slope, and of the opacity.
+    # Pictures agree within the rounding of codes: half a code, times the curve's largest slope, and of the opacity.
     assert picture.compare(tmp_path / "a.png").linf <= 0.5 * (1 + 2.4 / 1.055)
 
 

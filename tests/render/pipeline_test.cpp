@@ -61,17 +61,22 @@ TEST(Pipeline, IntegratesVoxelsExactlyAndUnlit) {
                  {"s: render.slice.classification: found \"preintegrated\"", "\"nearest\""});
 }
 
-// Labels 0, 9 and 5000000000 have the codes 0 to 2; functions that are given mean the labels.
-TEST(Pipeline, GivesLabelsTheOpticsOfTheirNumbers) {
-    const TemporaryFolder folder;
+// Writes 40 samples each of the labels 0, 9 and `last`.
+void write_labels(const std::filesystem::path& file, std::int64_t last) {
     std::string samples;
-    for (const std::int64_t label : {0L, 9L, 5000000000L})
+    for (const std::int64_t label : {std::int64_t{0}, std::int64_t{9}, last})
         for (int i = 0; i < 40; ++i)
             samples.append(reinterpret_cast<const char*>(&label), sizeof label);
-    write_bytes_to(folder / "a.nrrd",
+    write_bytes_to(file,
                    "NRRD0004\ntype: int64\ndimension: 3\nsizes: 120 1 1\nencoding: raw\n"
                    "endian: little\n\n" +
                        samples);
+}
+
+// Labels 0, 9 and 5000000000 have the codes 0 to 2; functions that are given mean the labels.
+TEST(Pipeline, GivesLabelsTheOpticsOfTheirNumbers) {
+    const TemporaryFolder folder;
+    write_labels(folder / "a.nrrd", 5000000000);
     nlohmann::json document = minimal_scene();
     document["volume"] = {{"path", "a.nrrd"}};
     document["transfer_function"] = {{"interpolation", "nearest"},
@@ -107,24 +112,14 @@ TEST(Pipeline, GivesLabelsTheOpticsOfTheirNumbers) {
 // Codes are those of the labels that a file had when the scene was saved.
 TEST(Pipeline, RefusesCodesOfOtherLabels) {
     const TemporaryFolder folder;
-    const auto write_labels = [&](std::int64_t last) {
-        std::string samples;
-        for (const std::int64_t label : {std::int64_t{0}, std::int64_t{9}, last})
-            for (int i = 0; i < 40; ++i)
-                samples.append(reinterpret_cast<const char*>(&label), sizeof label);
-        write_bytes_to(folder / "a.nrrd",
-                       "NRRD0004\ntype: int64\ndimension: 3\nsizes: 120 1 1\nencoding: raw\n"
-                       "endian: little\n\n" +
-                           samples);
-    };
-    write_labels(5000000000);
+    write_labels(folder / "a.nrrd", 5000000000);
     nlohmann::json document = minimal_scene();
     document["volume"] = {{"path", (folder / "a.nrrd").string()}};
     document.erase("transfer_function");
     Pipeline first(read_scene(document, folder / "scene.json"));
     const nlohmann::json saved = scene_json(first.scene());
     EXPECT_TRUE(saved["transfer_function"]["codes_of"].is_string());
-    write_labels(6000000000);
+    write_labels(folder / "a.nrrd", 6000000000);
     const auto draw = [&](const nlohmann::json& scene) {
         Pipeline(read_scene(scene, folder / "saved.json")).scene();
     };
