@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/parallel.h"
@@ -160,8 +161,7 @@ struct ConstantFinder {
         const auto knots = transfer_function.knots();
         const auto first =
             std::ranges::lower_bound(knots, range.lo - margin, {}, &TransferKnot::value);
-        const auto beside =
-            std::ranges::subrange(first, std::find_if_not(first, knots.end(), near));
+        const std::span beside(first, std::find_if_not(first, knots.end(), near));
         const bool constant =
             range.lo == range.hi
                 ? std::ranges::adjacent_find(beside, {}, &TransferKnot::value) == beside.end()
