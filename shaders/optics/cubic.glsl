@@ -3,6 +3,24 @@
 // a cubic along every straight line (docs/numerics.md, section 9).
 float cubic_at(vec4 c, float t) { return c.x + t * (c.y + t * (c.z + t * c.w)); }
 
+// The scalar along a part of a ray inside one cell.
+struct CellScalar {
+    vec4 cubic;
+#ifdef STEPS  // the transfer function has steps
+    vec2 limits;  // the least and the largest scalar that the cell shows (slicing/cell_cubic.glsl)
+#endif
+};
+
+float limited(CellScalar scalar, float value) {
+#ifdef STEPS
+    return clamp(value, scalar.limits.x, scalar.limits.y);
+#else
+    return value;
+#endif
+}
+
+float scalar_at(CellScalar scalar, float t) { return limited(scalar, cubic_at(scalar.cubic, t)); }
+
 float cubic_slope(vec4 c, float t) { return c.y + t * (2.0 * c.z + t * (3.0 * c.w)); }
 
 float cubic_mean(vec4 c) { return c.x + (1.0 / 2.0) * c.y + (1.0 / 3.0) * c.z + (1.0 / 4.0) * c.w; }
@@ -13,6 +31,12 @@ vec2 cubic_range(vec4 c) {
     float two = one + (1.0 / 3.0) * (c.y + c.z);
     float end = c.x + c.y + c.z + c.w;
     return vec2(min(min(c.x, one), min(two, end)), max(max(c.x, one), max(two, end)));
+}
+
+// Returns such bounds of a cell's scalar, between 0 and 1.
+vec2 scalar_range(CellScalar scalar) {
+    vec2 range = cubic_range(scalar.cubic);
+    return clamp(vec2(limited(scalar, range.x), limited(scalar, range.y)), 0.0, 1.0);
 }
 
 // Returns numerator / divisor if the quotient lies between 0 and 1, else 1.

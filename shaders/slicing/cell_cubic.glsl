@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the scalar along a part of a ray inside one cell of the grid, a cubic, normalised so
 // that the volume's range is [0, 1].
-// SAMPLE_WORDS: samples are words of a storage buffer, in place of texels.
+// STEPS: the transfer function has steps. SAMPLE_WORDS: samples are words of a storage buffer, in place of texels.
+#include "optics/cubic.glsl"
 uniform vec3 last_sample;        // the brick's size in samples, minus one
 uniform vec2 code_normalisation; // the code that becomes 0, and the factor to normalised scalars
 uniform float largest_code;
@@ -82,33 +83,57 @@ bool has_nan(Corners corners) {
 }
 
 #ifdef NEAREST_LOOKUP
-// Returns the normalised scalar in a voxel, as coefficients of a cubic. Beyond the samples (`cell`
-// axes) the border value repeats. `transparent`: true if NaN is transparent and it is the sample.
-vec4 cell_cubic(ivec3 voxel, vec3 place, vec3 change, out bool transparent) {
+// Returns the normalised scalar in a voxel. Beyond the samples (`cell` axes) the border value
+// repeats. `transparent`: true if NaN is transparent and it is the sample.
+CellScalar cell_scalar(ivec3 voxel, vec3 place, vec3 change, out bool transparent) {
     float code = fetch_code(clamp(voxel, ivec3(0), ivec3(last_sample)));
 #ifdef NAN_TRANSPARENT
     transparent = is_nan(code);
 #else
     transparent = false;
 #endif
-    return transparent ? vec4(0.0) : vec4((code - code_normalisation.x) * code_normalisation.y, 0.0, 0.0, 0.0);
+    CellScalar scalar;
+    scalar.cubic = vec4(transparent ? 0.0 : (code - code_normalisation.x) * code_normalisation.y, vec3(0.0));
+#ifdef STEPS
+    scalar.limits = scalar.cubic.xx;
+#endif
+    return scalar;
 }
 #else
-// Returns the normalised scalar, as coefficients of a cubic, along the part of a ray from `place`,
-// counted from the cell's lowest corner, to place + change. Beyond the samples (`cell` axes) the
-// border value repeats. `transparent`: true if NaN is transparent and a corner is NaN.
-vec4 cell_cubic(ivec3 cell, vec3 place, vec3 change, out bool transparent) {
+// Returns the scalars that a cell shows: those between its corners' least and largest. These two
+// themselves are shown by a constant cell alone; in others a field meets them in a set of no
+// volume. So they are left out, by a few roundings of a scalar in 0 .. 1: else a rounding would put
+// a ray that only touches a step of the transfer function on its other side (docs/numerics.md,
+// section 9.3).
+vec2 limits_of(Corners corners) {
+    vec4 least = min(corners.lower, corners.upper), largest = max(corners.lower, corners.upper);
+    vec2 codes = vec2(min(min(least.x, least.y), min(least.z, least.w)),
+                      max(max(largest.x, largest.y), max(largest.z, largest.w)));
+    vec2 limits = (codes - code_normalisation.x) * code_normalisation.y;
+    float margin = min(0.5 * (limits.y - limits.x), 1.1920929e-7);
+    return vec2(limits.x + margin, limits.y - margin);
+}
+
+// Returns the normalised scalar along the part of a ray from `place`, counted from the cell's
+// lowest corner, to place + change. Beyond the samples (`cell` axes) the border value repeats.
+// `transparent`: true if NaN is transparent and a corner is NaN.
+CellScalar cell_scalar(ivec3 cell, vec3 place, vec3 change, out bool transparent) {
     ivec3 last = ivec3(last_sample);
     ivec3 lowest = clamp(cell, ivec3(0), max(last - 1, 0));
     vec3 share = clamp(place + vec3(cell - lowest), vec3(0.0), min(last_sample, vec3(1.0)));
     Corners corners = fetch_corners(lowest);
-    vec4 cubic = cubic_along(corners, code_normalisation.x, share, change * vec3(equal(cell, lowest)));
+    CellScalar scalar;
+    scalar.cubic = cubic_along(corners, code_normalisation.x, share, change * vec3(equal(cell, lowest)));
 #ifdef NAN_TRANSPARENT
     transparent = has_nan(corners);
-    if (transparent) cubic = vec4(0.0);
+    if (transparent) scalar.cubic = vec4(0.0);
 #else
     transparent = false;
 #endif
-    return cubic * code_normalisation.y;
+    scalar.cubic *= code_normalisation.y;
+#ifdef STEPS
+    scalar.limits = limits_of(corners);
+#endif
+    return scalar;
 }
 #endif

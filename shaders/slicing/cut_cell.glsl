@@ -71,11 +71,12 @@ struct CutPlace {
 
 // Returns the beginning of a part. If the scalar there is a knot, the interval is the one that the
 // scalar enters. `turns`: result of cubic_turns().
-CutPlace first_place(vec4 cubic, vec2 turns) {
-    int interval = find_interval(clamp(cubic.x, 0.0, 1.0));
-    bool falling = cubic_at(cubic, turns.x) < cubic.x;
-    if (falling && interval > 0 && interval_place(interval).x == cubic.x) --interval;
-    return CutPlace(0.0, cubic.x, interval);
+CutPlace first_place(CellScalar scalar, vec2 turns) {
+    float first = limited(scalar, scalar.cubic.x);
+    int interval = find_interval(clamp(first, 0.0, 1.0));
+    bool falling = cubic_at(scalar.cubic, turns.x) < first;
+    if (falling && interval > 0 && interval_place(interval).x == first) --interval;
+    return CutPlace(0.0, first, interval);
 }
 
 // The longest piece of a part that begins at a given place and over which the scalar is monotone
@@ -86,14 +87,14 @@ struct NextPiece {
     int next_interval;  // behind its end
 };
 
-NextPiece find_next_piece(vec4 cubic, vec2 turns, CutPlace place) {
+NextPiece find_next_piece(CellScalar scalar, vec2 turns, CutPlace place) {
     float end = place.t < turns.x ? turns.x : place.t < turns.y ? turns.y : 1.0;
-    float at_end = cubic_at(cubic, end);
+    float at_end = scalar_at(scalar, end);
     bool rising = at_end >= place.scalar;
     Interval interval = interval_at(place.interval);
     float knot = rising ? interval.right_end : place.interval == 0 ? -3e38 : interval.left_end;
     bool crosses = rising ? knot < at_end : knot > at_end;
-    float to = crosses ? cubic_root(cubic, knot, vec2(place.t, end), vec2(place.scalar, at_end)) : end;
+    float to = crosses ? cubic_root(scalar.cubic, knot, vec2(place.t, end), vec2(place.scalar, at_end)) : end;
     return NextPiece(interval, to, crosses ? knot : at_end, place.interval + (crosses ? rising ? 1 : -1 : 0));
 }
 
@@ -107,10 +108,10 @@ LinearPart piece_from(CutPlace place, Interval interval, vec4 cubic, float exten
 
 // Moves a place to the end of the next piece if `whole`, else by `extent`, but at least by 6e-8,
 // about one float.
-void advance(NextPiece next_piece, vec4 cubic, bool whole, float extent, inout CutPlace place) {
+void advance(NextPiece next_piece, CellScalar scalar, bool whole, float extent, inout CutPlace place) {
     float shortened = max(place.t + extent, place.t + 6e-8);
     place.t = whole ? next_piece.t_to : shortened;
-    place.scalar = whole ? next_piece.s_to : cubic_at(cubic, shortened);
+    place.scalar = whole ? next_piece.s_to : scalar_at(scalar, shortened);
     if (whole) place.interval = next_piece.next_interval;
 }
 
@@ -119,31 +120,31 @@ void advance(NextPiece next_piece, vec4 cubic, bool whole, float extent, inout C
 #else
 // Adds the next piece of a part, or its beginning if it is too deep, and moves the place behind
 // what was added.
-void add_piece(vec4 cubic, vec2 turns, float world_length, inout CutPlace place, inout RaySum sum) {
-    NextPiece next_piece = find_next_piece(cubic, turns, place);
+void add_piece(CellScalar scalar, vec2 turns, float world_length, inout CutPlace place, inout RaySum sum) {
+    NextPiece next_piece = find_next_piece(scalar, turns, place);
     float extent = max(next_piece.t_to - place.t, 0.0);
-    LinearPart part = piece_from(place, next_piece.interval, cubic, extent, next_piece.s_to, world_length);
+    LinearPart part = piece_from(place, next_piece.interval, scalar.cubic, extent, next_piece.s_to, world_length);
 #ifdef SINGLE_COLOR
     const bool whole = true;
 #else
     bool whole = shorten(part, extent);
 #endif
     add_linear_part(next_piece.interval, part, depth_of(part), sum);
-    advance(next_piece, cubic, whole, extent, place);
+    advance(next_piece, scalar, whole, extent, place);
 }
 
 // Adds a part piece by piece.
-void add_cut_part(vec4 cubic, float world_length, inout RaySum sum) {
-    vec2 turns = cubic_turns(cubic);
-    CutPlace place = first_place(cubic, turns);
-    while (place.t < 1.0 && !is_opaque(sum)) add_piece(cubic, turns, world_length, place, sum);
+void add_cut_part(CellScalar scalar, float world_length, inout RaySum sum) {
+    vec2 turns = cubic_turns(scalar.cubic);
+    CutPlace place = first_place(scalar, turns);
+    while (place.t < 1.0 && !is_opaque(sum)) add_piece(scalar, turns, world_length, place, sum);
 }
 
 // Adds a part whose scalar is a cubic, by one rule if possible.
-void add_part(vec4 cubic, float world_length, inout RaySum sum) {
-    vec2 range = clamp(cubic_range(cubic), 0.0, 1.0);
+void add_part(CellScalar scalar, float world_length, inout RaySum sum) {
+    vec2 range = scalar_range(scalar);
     Interval interval = interval_at(find_interval(range.x));
-    LinearPart part = linear_part(interval, cubic, world_length);
+    LinearPart part = linear_part(interval, scalar.cubic, world_length);
     bool crosses = range.y > interval.right_end;
     float depth = crosses ? 0.0 : depth_of(part);
     bool hard = crosses && range.y > interval.shown_beyond;
@@ -153,7 +154,7 @@ void add_part(vec4 cubic, float world_length, inout RaySum sum) {
     if (!hard) add_linear_part(interval, part, depth, sum);
     // This is a loop and not an if, because software rasterisers compute both sides of branches.
     while (hard) {
-        add_cut_part(cubic, world_length, sum);
+        add_cut_part(scalar, world_length, sum);
         hard = false;
     }
 }

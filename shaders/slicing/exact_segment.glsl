@@ -36,12 +36,12 @@ void integrate_cells(Ray ray, REAL2 depths, inout RaySum sum) {
         float way = min(min(to_faces.x, to_faces.y), min(to_faces.z, float(left)));
         vec3 change = way * cells.slope;
         bool transparent;
-        vec4 cubic = cell_cubic(at.cell, at.place, change, transparent);
+        CellScalar scalar = cell_scalar(at.cell, at.place, change, transparent);
         float world_length = transparent ? 0.0 : way * float(ray.length_per_depth);
 #ifdef LIGHTS
-        add_part(cubic, world_length, LitStep(at.cell, at.place, change, to_eye), sum);
+        add_part(scalar, world_length, LitStep(at.cell, at.place, change, to_eye), sum);
 #else
-        add_part(cubic, world_length, sum);
+        add_part(scalar, world_length, sum);
 #endif
 #ifdef ENDS_EARLY
         if (sum.depth >= opaque_depth) break;

@@ -30,14 +30,14 @@ void choose_length(bool again, bool whole, bool full, float extent, inout PieceL
 
 // Adds the next piece of a part, or its beginning if it is too deep, and moves the place behind
 // what was added. If its light bends too much, nothing is added and the next piece is shorter.
-void add_lit_piece(vec4 cubic, vec2 turns, float world_length, CellGradient gradient, vec3 to_eye,
+void add_lit_piece(CellScalar scalar, vec2 turns, float world_length, CellGradient gradient, vec3 to_eye,
                    inout PieceLength pieces, inout CutPlace place, inout RaySum sum) {
-    NextPiece next_piece = find_next_piece(cubic, turns, place);
+    NextPiece next_piece = find_next_piece(scalar, turns, place);
     float extent = max(next_piece.t_to - place.t, 0.0);
     bool to_end = extent <= pieces.longest;
     extent = min(extent, pieces.longest);
-    float at_end = to_end ? next_piece.s_to : cubic_at(cubic, place.t + extent);
-    LinearPart part = piece_from(place, next_piece.interval, cubic, extent, at_end, world_length);
+    float at_end = to_end ? next_piece.s_to : scalar_at(scalar, place.t + extent);
+    LinearPart part = piece_from(place, next_piece.interval, scalar.cubic, extent, at_end, world_length);
     bool whole = shorten(part, extent);
     float depth = depth_of(part), opacity = opacity_from_depth(depth);
     vec3 color = color_of(next_piece.interval, part, depth, opacity);
@@ -47,24 +47,24 @@ void add_lit_piece(vec4 cubic, vec2 turns, float world_length, CellGradient grad
     if (again) return;
     sum.depth += depth;
     composite(color, opacity, sum);
-    advance(next_piece, cubic, whole && to_end, extent, place);
+    advance(next_piece, scalar, whole && to_end, extent, place);
 }
 
 // Adds a part piece by piece, the first one at most `longest`.
-void add_cut_part(vec4 cubic, float world_length, CellGradient gradient, vec3 to_eye, float longest,
+void add_cut_part(CellScalar scalar, float world_length, CellGradient gradient, vec3 to_eye, float longest,
                   inout RaySum sum) {
-    vec2 turns = cubic_turns(cubic);
-    CutPlace place = first_place(cubic, turns);
+    vec2 turns = cubic_turns(scalar.cubic);
+    CutPlace place = first_place(scalar, turns);
     PieceLength pieces = PieceLength(longest, longest, false);
     while (place.t < 1.0 && !is_opaque(sum))
-        add_lit_piece(cubic, turns, world_length, gradient, to_eye, pieces, place, sum);
+        add_lit_piece(scalar, turns, world_length, gradient, to_eye, pieces, place, sum);
 }
 
 // Adds a part whose scalar is a cubic, by one rule if possible. `way`: its place in the cell.
-void add_part(vec4 cubic, float world_length, LitStep way, inout RaySum sum) {
-    vec2 range = clamp(cubic_range(cubic), 0.0, 1.0);
+void add_part(CellScalar scalar, float world_length, LitStep way, inout RaySum sum) {
+    vec2 range = scalar_range(scalar);
     Interval interval = interval_at(find_interval(range.x));
-    LinearPart part = linear_part(interval, cubic, world_length);
+    LinearPart part = linear_part(interval, scalar.cubic, world_length);
     bool crosses = range.y > interval.right_end;
     float depth = crosses ? 0.0 : depth_of(part);
     bool hard = crosses && range.y > interval.shown_beyond || depth > largest_part_depth;
@@ -87,7 +87,7 @@ void add_part(vec4 cubic, float world_length, LitStep way, inout RaySum sum) {
         }
         while (hard) {
             hard = false;
-            add_cut_part(cubic, world_length, gradient, way.to_eye, longest, sum);
+            add_cut_part(scalar, world_length, gradient, way.to_eye, longest, sum);
         }
     }
 }

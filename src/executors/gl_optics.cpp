@@ -106,6 +106,7 @@ GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
     const ShaderIntervals intervals = make_intervals(
         pieces_between(transfer_function, range.lo, range.hi, false), range, anchors, step_advance);
     interval_count_ = intervals.count;
+    steps_ = intervals.steps;
     intervals_ = upload_intervals(intervals);
     interval_starts_ =
         gl::Texture::make_2d(gl::TextureFormat::r32f, ShaderIntervals::start_count, 1);

@@ -26,11 +26,13 @@ class GlTransferTables {
                      const KnotTable* table, bool filtered, double step_advance);
 
     int intervals() const { return interval_count_; }
+    bool steps() const { return steps_; }      // ShaderIntervals::steps
     int nodes() const { return node_count_; }  // along an axis of the table; 0 without a table
     void bind(gl::Program& program) const;     // binds textures and sets uniforms
 
   private:
     int interval_count_ = 0, node_count_ = 0;
+    bool steps_ = false;
     float layers_per_length_ = 0;
     gl::Texture intervals_, interval_starts_, knot_table_;
     std::optional<gl::Texture> front_parts_;

@@ -98,7 +98,9 @@ ShaderIntervals make_intervals(const std::vector<CurvedPiece>& pieces, const Val
     OpticalProperties before = pieces.front().at_from;
     for (const CurvedPiece& piece : pieces) {
         const double piece_width = normalised(piece.to) - normalised(piece.from);
-        const double advance = !places.empty() && is_step(before, piece.at_from) ? step_advance : 0;
+        const bool step = !places.empty() && is_step(before, piece.at_from);
+        const double advance = step ? step_advance : 0;
+        intervals.steps = intervals.steps || step;
         before = piece.at_to;
         places.push_back(static_cast<float>(normalised(piece.from) - advance));
         places.push_back(piece_width > 0
@@ -151,6 +153,7 @@ CpuTransfer::CpuTransfer(const TransferFunction& transfer_function, const ValueR
     const auto pieces = pieces_between(transfer_function, range.lo, range.hi, curved);
     const ShaderIntervals shader = make_intervals(pieces, range, anchors, step_advance);
     intervals = shader.count;
+    steps = shader.steps;
     const int padded = std::max(intervals, 0) + few;
     const auto component = [&](int row, int channel) {
         std::vector<float> values(static_cast<std::size_t>(padded));

@@ -33,6 +33,7 @@ struct ShaderIntervals {
     static constexpr int columns = 4096;
 
     int count = 0;
+    bool steps = false;         // colour or extinction jump between two intervals
     std::vector<float> texels;  // rows * count * 4
     // The intervals that hold the beginnings of equal parts of [0, 1], at which searches start.
     std::array<float, start_count> starts{};
@@ -63,6 +64,7 @@ struct CpuTransfer {
                 bool curved = false);
 
     int intervals = 0;
+    bool steps = false;                          // ShaderIntervals::steps
     std::vector<float> left_end, inverse_width;  // for each interval: left end, 1 / width
     // Table node at the left end of each interval, and number of table nodes up to its right end.
     std::vector<float> first_node, nodes;

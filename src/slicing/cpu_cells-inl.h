@@ -148,6 +148,11 @@ class CellIntegrator {
         CubicLanes cubic = cubic_along(corners, base, place, change);
         for (Float& c : cubic.c) c *= brick.scale;
         if (slabs_.plan->nan_transparent) set_transparent(corners, cubic, i);
+        if (slabs_.transfer->steps) {
+            const RangeLanes limits = limits_of(corners, base, brick.scale);
+            store(limits.lo, segments_.limits[0] + i);
+            store(limits.hi, segments_.limits[1] + i);
+        }
         for (std::size_t power = 0; power < 4; ++power)
             store(cubic.c[power], segments_.cubic[power] + i);
     }
@@ -180,7 +185,12 @@ class CellIntegrator {
         cut_.clear();
         for_each_vector([&](std::size_t i) LAMINA_LAMBDA {
             const CubicLanes cubic = cubic_of(i);
-            const RangeLanes range = range_of(cubic);
+            RangeLanes range = range_of(cubic);
+            if (transfer.steps) {
+                const RangeLanes limits{load<Float>(segments_.limits[0] + i),
+                                        load<Float>(segments_.limits[1] + i)};
+                range = {limits.clamped(range.lo), limits.clamped(range.hi)};
+            }
             const Float lowest = clamp01(range.lo);
             const Int first = find_interval<kind>(transfer, lowest);
             const IntervalLanes<curved> interval = interval_lanes<kind, curved>(transfer, first);

@@ -75,6 +75,7 @@ class CutSegments {
     };
     struct Lanes {
         Segment segment;
+        RangeLanes limits;  // of the scalar
         Progress done;
     };
 
@@ -101,8 +102,8 @@ class CutSegments {
                 const std::size_t place = from + i * step;
                 members[i] = first_lanes<FloatMask>(count - place);
                 lanes[i].segment = load(place, members[i]);
-                lanes[i].done =
-                    first ? begin<kind>(transfer, lanes[i].segment) : resume(place, members[i]);
+                lanes[i].limits = limits_at(transfer, lanes[i].segment.place, all);
+                lanes[i].done = first ? begin<kind>(transfer, lanes[i]) : resume(place, members[i]);
             }
             add_pieces<kind, curved>(transfer, colored, used, lanes, ended);
             for (std::size_t i = 0; i < used; ++i) {
@@ -121,11 +122,19 @@ class CutSegments {
         return segment;
     }
 
+    // Returns limits_of() the cells if the transfer function has steps.
+    static LAMINA_INLINE RangeLanes limits_at(const CpuTransfer& transfer, Int place,
+                                              const CellSegments& all) {
+        if (!transfer.steps) return {-beyond_all_scalars, beyond_all_scalars};
+        return {gather(all.limits[0], place), gather(all.limits[1], place)};
+    }
+
     // Returns the beginning, t = 0. A scalar on a knot is in the interval to which it goes.
     template <Lookup kind>
-    static LAMINA_INLINE Progress begin(const CpuTransfer& transfer, const Segment& segment) {
+    static LAMINA_INLINE Progress begin(const CpuTransfer& transfer, const Lanes& lanes) {
+        const Segment& segment = lanes.segment;
         const Turns turns = turns_of(segment.scalar);
-        const Float start = segment.scalar.c[0];
+        const Float start = lanes.limits.clamped(segment.scalar.c[0]);
         const FloatMask falling = segment.scalar.at(turns.first) < start;
         const Int interval = find_interval<kind>(transfer, clamp01(start));
         const FloatMask on_knot = look_up<kind>(transfer.left_end, interval) == start;
@@ -192,11 +201,11 @@ class CutSegments {
     template <Lookup kind, bool curved>
     static LAMINA_INLINE NextPiece<curved> find_next_piece(const CpuTransfer& transfer,
                                                            const Lanes& lanes) {
-        const auto& [segment, done] = lanes;
+        const auto& [segment, limits, done] = lanes;
         NextPiece<curved> next;
         next.t_end = select(done.t < done.turns[0], done.turns[0],
                             select(done.t < done.turns[1], done.turns[1], 1));
-        next.s_end = segment.scalar.at(next.t_end);
+        next.s_end = limits.clamped(segment.scalar.at(next.t_end));
         next.rising = next.s_end >= done.s;
         next.interval = interval_lanes<kind, curved>(transfer, done.interval);
         const FloatMask lowest = done.interval == 0;
@@ -212,7 +221,7 @@ class CutSegments {
     template <bool curved>
     LAMINA_INLINE FloatMask add_piece(bool colored, const NextPiece<curved>& next_piece,
                                       Lanes& lanes) const {
-        auto& [segment, done] = lanes;
+        auto& [segment, limits, done] = lanes;
         const Float t_to = select(next_piece.crosses, next_piece.root.t, next_piece.t_end);
         const Float s_to = select(next_piece.crosses, next_piece.knot, next_piece.s_end);
         Float extent = max(t_to - done.t, 0), s_back = s_to;
@@ -220,7 +229,7 @@ class CutSegments {
         if constexpr (lit) {
             whole = extent <= segment.longest;
             extent = min(extent, segment.longest);
-            s_back = select(whole, s_to, segment.scalar.at(done.t + extent));
+            s_back = select(whole, s_to, limits.clamped(segment.scalar.at(done.t + extent)));
         }
         PieceOptics<curved> piece(next_piece.interval,
                                   share_of_piece(next_piece.interval, lanes, extent, s_back),
@@ -239,7 +248,7 @@ class CutSegments {
         // t grows by at least 2^-24, the spacing of floats below 1: every iteration makes progress.
         const Float shortened = max(done.t + extent, done.t + 6e-8f);
         done.t = select(whole, t_to, shortened);
-        done.s = select(whole, s_to, segment.scalar.at(done.t));
+        done.s = select(whole, s_to, limits.clamped(segment.scalar.at(done.t)));
         const Int next = select(next_piece.rising, done.interval + 1, done.interval - 1);
         done.interval = select(whole & next_piece.crosses, next, done.interval);
         return (done.t >= 1) | (done.transmittance < least_transmittance);
@@ -250,8 +259,8 @@ class CutSegments {
     template <bool curved>
     static LAMINA_INLINE CubicLanes share_of_piece(const IntervalLanes<curved>& interval,
                                                    const Lanes& lanes, Float extent, Float s_to) {
-        const auto& [segment, done] = lanes;
-        const CubicLanes& cubic = segment.scalar;
+        const Progress& done = lanes.done;
+        const CubicLanes& cubic = lanes.segment.scalar;
         CubicLanes piece;
         piece.c[0] = done.s;
         piece.c[2] = (cubic.c[2] + 3 * cubic.c[3] * done.t) * extent * extent;
@@ -315,7 +324,8 @@ class CutSegments {
     LAMINA_INLINE FloatMask composite_lit(const IntervalLanes<curved>& interval,
                                           const PieceOptics<curved>& piece, Float extent,
                                           Lanes& lanes) const {
-        auto& [segment, done] = lanes;
+        const Segment& segment = lanes.segment;
+        Progress& done = lanes.done;
         const Float depth = piece.depth();
         const Float opacity = opacity_from_depth(depth);
         const Float seen = seen_of(piece, depth, opacity);

@@ -63,7 +63,27 @@ LAMINA_INLINE CubicLanes cubic_along(const Corners& corners, Float base, const F
 
 struct RangeLanes {
     Float lo, hi;
+
+    LAMINA_INLINE Float clamped(Float scalar) const { return min(max(scalar, lo), hi); }
 };
+
+// Returns the scalars that a cell shows: those between its corners' least and largest. These two
+// themselves are shown by a constant cell alone; in others a field meets them in a set of no
+// volume. So they are left out, by a few roundings of a scalar in 0 .. 1: else a rounding would put
+// a ray that only touches a step of the transfer function on its other side (docs/numerics.md,
+// section 9.3).
+LAMINA_INLINE RangeLanes limits_of(const Corners& corners, Float base, float scale) {
+    Float least = corners.lower[0], largest = least;
+    const auto include = [&](Float v) LAMINA_LAMBDA {
+        least = min(least, v);
+        largest = max(largest, v);
+    };
+    for (int i = 1; i < 4; ++i) include(corners.lower[i]);
+    for (int i = 0; i < 4; ++i) include(corners.upper[i]);
+    const Float lo = (least - base) * scale, hi = (largest - base) * scale;
+    const Float margin = min(0.5f * (hi - lo), 0x1p-23f);
+    return {lo + margin, hi - margin};
+}
 
 // Returns bounds on the cubic: its least and largest Bernstein coefficient.
 LAMINA_INLINE RangeLanes range_of(const CubicLanes& cubic) {

@@ -48,6 +48,7 @@ struct CellSegments {
     alignas(64) std::int32_t index[capacity];  // of the cell's lowest corner (cell_index())
     // The normalised scalar from entry (t = 0) to exit (t = 1), coefficients of a cubic (9.1).
     alignas(64) float cubic[4][capacity];
+    alignas(64) float limits[2][capacity];  // of the scalar, if CpuTransfer::steps
     alignas(64) float to_eye[3][capacity];  // direction to the eye, for lit segments
     // Associated colour, opacity and optical depth that the segment adds to its ray.
     alignas(64) float color[3][capacity];

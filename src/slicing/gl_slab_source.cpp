@@ -59,7 +59,7 @@ SampleCodes sample_codes(const Volume& volume, const ValueRange& range, const Sl
 
 }  // namespace
 
-gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_nodes) {
+gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_nodes, bool steps) {
     gl::Defines defines;
     defines.set("SAMPLING", sampling_define(plan.sampling));
     if (plan.orthographic) defines.set("ORTHOGRAPHIC", 1);
@@ -73,6 +73,7 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
     defines.set("INTERVALS", intervals);
     if (plan.integrates_cells()) {
         defines.set("EXACT", 1);
+        if (steps) defines.set("STEPS", 1);
         if (plan.float_texture) defines.set("FLOAT_SAMPLES", 1);
         if (plan.words) defines.set("SAMPLE_WORDS", 1);
     }
@@ -128,8 +129,9 @@ void GlSlabSource::take_plan(const SlicePlan& plan) {
 }
 
 gl::Defines GlSlabSource::defines() const {
-    return tables_ ? segment_defines(plan_, tables_->intervals(), tables_->nodes())
-                   : segment_defines(plan_, 0, 0);
+    return tables_
+               ? segment_defines(plan_, tables_->intervals(), tables_->nodes(), tables_->steps())
+               : segment_defines(plan_, 0, 0, false);
 }
 
 void GlSlabSource::bind(gl::Program& program) const {

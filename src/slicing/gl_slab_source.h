@@ -20,7 +20,8 @@ struct SampleCodes {
 };
 
 // Returns the definitions that specialise slicing/segment.glsl for a plan and its tables' sizes.
-gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_nodes);
+// `steps`: ShaderIntervals::steps.
+gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_nodes, bool steps);
 
 // The data that fragments of slabs read (slicing/segment.glsl): volume, transfer function, rays.
 class GlSlabSource {

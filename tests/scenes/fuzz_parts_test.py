@@ -80,6 +80,10 @@ class Scenes(unittest.TestCase):
             one, other = scene_maker.make(seed), scene_maker.make(seed)
             self.assertEqual((one.scene, one.files, one.arguments), (other.scene, other.files, other.arguments))
 
+    def test_blocks_of_whole_numbers_are_no_labels(self):
+        """lamina takes this volume for labels unless the scene says that it is a field, as the oracle draws it."""
+        self.assertEqual(findings(20491), set())
+
     def test_a_wrong_judge_finds_that_the_tracer_is_wrong(self):
         """So a wrong tracer would be found: extinction 1e-3 too high moves every channel of a pixel that is neither clear
         nor opaque by far more than the tracer's 1e-7."""

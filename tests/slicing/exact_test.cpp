@@ -60,6 +60,32 @@ TEST_P(ExactTest, TouchingAPointIsNotCrossingIt) {
     EXPECT_NEAR(opacity_above(.24), -std::expm1(-50 * open), 1e-5);
 }
 
+// Steps at the least and the largest sample, which a third of the samples have. A ray that meets an
+// edge of two such corners, or passes a part of a cell whose scalars float32 rounds to theirs, must
+// not see the other side of the step. No other ray touches it, and both sides are visible.
+TEST_P(ExactTest, StepsAtTheEndsOfTheSamplesMeetTheTracer) {
+    std::uint32_t state = 12345;
+    const auto sample = [&](double, double, double) {
+        state = state * 1664525u + 1013904223u;
+        return std::clamp(250.0 + static_cast<double>(state >> 24) / 32, 252.0, 255.0);
+    };
+    const Volume volume =
+        test::volume_of<std::uint8_t>(test::grid_of({17, 17, 17}, Centering::node), sample);
+    for (const double value : {252, 255}) {
+        for (const double extinction : {.3, 1e6}) {
+            Scene scene = exact_scene(
+                TransferFunction::linear({knot(value, {.9, .2, .1}, extinction),
+                                          knot(value, {.1, .3, .8}, .3e6 / extinction)}),
+                Projection::perspective);
+            look_from(volume, {.4, -.7, .9}, 1.1, scene);
+            scene.width = 160;
+            scene.height = 120;
+            EXPECT_LE(linf(draw(volume, scene), trace(volume, scene, 1e-8)), promised)
+                << value << " " << extinction;
+        }
+    }
+}
+
 // With an optical depth of 4e6, the cell is opaque within a hundredth of its length from one side,
 // and from the other within less than float32 can resolve.
 TEST_P(ExactTest, DeepCellsHaveTheColorOfTheirFront) {

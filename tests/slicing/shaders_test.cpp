@@ -222,16 +222,18 @@ SlicePlan exact_nodes(bool lit) {
 void add_slabs(Specialisations& all) {
     for (const SlicePlan& plan : every_segment_plan()) {
         for (const int intervals : {1, 6}) {
-            const gl::Defines segments = segment_defines(plan, intervals, table_nodes);
+            const gl::Defines segments =
+                segment_defines(plan, intervals, table_nodes, intervals > 1);
             add(all, {"slicing/slab.vert", "slicing/slab.frag"}, slab_defines(plan, segments));
         }
     }
     for (const bool lit : {false, true}) {
         add(all, {"slicing/codes.comp"},
-            slab_defines(exact_codes(lit), segment_defines(exact_codes(lit), 6, table_nodes)));
+            slab_defines(exact_codes(lit),
+                         segment_defines(exact_codes(lit), 6, table_nodes, true)));
     }
     for (const SlicePlan& plan : every_code_plan()) {
-        const gl::Defines defines = slab_defines(plan, segment_defines(plan, 6, table_nodes));
+        const gl::Defines defines = slab_defines(plan, segment_defines(plan, 6, table_nodes, true));
         if (plan.emulation) {
             add(all, {"slicing/codes.comp"}, defines);
             if (!plan.tree) continue;
@@ -250,7 +252,7 @@ enum class LeafSegments { two, every };
 
 void add_nodes(Specialisations& all, LeafSegments leaves) {
     const auto add_leaf = [&](const SlicePlan& plan, int intervals, NodePlace place) {
-        const gl::Defines segments = segment_defines(plan, intervals, table_nodes);
+        const gl::Defines segments = segment_defines(plan, intervals, table_nodes, intervals > 1);
         add(all, {"slicing/leaf.comp"}, leaf_defines(plan, segments, place));
     };
     const bool every = leaves == LeafSegments::every;

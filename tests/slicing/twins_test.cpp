@@ -70,7 +70,7 @@ void compare_runs(bool colored, int layers, bool filtered, bool lit = false) {
         "    result = sum.front;\n"
         "#endif\n"
         "}\n",
-        segment_defines(plan, tables.intervals(), tables.nodes()));
+        segment_defines(plan, tables.intervals(), tables.nodes(), false));
     tables.bind(program);
     program.set("world_length", .35f);
     const Image image = drawn_image(program);

@@ -142,6 +142,8 @@ def volume_scene(seed, dice, lit):
     low, high = volume.corners()
     corner, edges = volume.to_world(low), volume.steps * (high - low)
     scene = {"version": 1, "volume": "volume.nrrd"}
+    if (volume.samples == numpy.rint(volume.samples)).all():  # else blocks of them may be taken for labels
+        scene["volume"] = {"path": "volume.nrrd", "lookup": "linear"}
     if not numpy.isfinite(volume.samples).all():
         scene["nan"] = "transparent"
         volume.kind += " with NaN"
