@@ -147,8 +147,6 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
       tables_(transfer_function_, plan_),
       program_("projection/walk.comp", walk_defines(plan_, tables_, mesh.mesh.has_copies())),
       picture_(PixelPacking::floats, width, height) {
-    if (plan_.lighting)
-        gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
     constexpr std::size_t ray_bytes = 64, pixels_of_tile = EntryTiles::size * EntryTiles::size;
     rays_ = gl::Buffer(std::min(most_tiles, TileLists::count(width) * TileLists::count(height)) *
                        pixels_of_tile * ray_bytes);

@@ -68,7 +68,6 @@ class GlMeshWalk : public ProjectRenderer {
     std::vector<TetFace> faces_;  // by which rays enter
     bool around_hidden_ = false;  // rays leave the mesh at tets that show nothing
     EntryTiles entries_;
-    StoredGradients gradients_;  // empty if nothing is lit
     gl::TexelBuffer tets_, neighbors_, corners_, points_, gradient_texels_, open_faces_;
     gl::TexelBuffer tiles_, listed_faces_;
     gl::Buffer rays_, unfinished_;

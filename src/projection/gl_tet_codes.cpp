@@ -129,19 +129,14 @@ GlTetCodes::GlTetCodes(const SceneMesh& mesh, const TransferFunction& transfer_f
     Stage tables("tables");
     tables_.emplace(transfer_function_, plan_);
     table_ms_ = tables.end();
-    if (plan_.lighting)
-        gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
     program_.emplace("projection/codes.comp", tet_code_defines(plan_, *tables_));
     most_of_list_ =
         most_in_dispatch(plan_, tables_->intervals(), gl::current_context()->capabilities());
-    find_visible_cell_fragments();
-    const auto cell_fragments = static_cast<std::size_t>(visible_->count());
-    records_.resize(std::min(batch_size, cell_fragments));
+    records_.resize(std::min(batch_size, static_cast<std::size_t>(visible_->count())));
     if (plan_.lighting) gradient_records_.resize(records_.size());
     areas_.resize(records_.size());
-    if (plan_.tree.empty() || cell_fragments == 0) return;
-    const TreeShape shape(plan_.tree, static_cast<int>(cell_fragments));
-    tree_.emplace(plan_, shape, tables_->single_color(), width, height);
+    if (const std::optional<TreeShape> shape = tree_shape())
+        tree_.emplace(plan_, *shape, tables_->single_color(), width, height);
 }
 
 int GlTetCodes::step_count() const {

@@ -63,7 +63,6 @@ class GlTetCodes : public ProjectRenderer {
     int width_, height_;
     std::optional<GlProjectTables> tables_;  // none if nothing is visible
     std::optional<gl::Program> program_;
-    StoredGradients gradients_;  // empty if nothing is lit
     GlPixels picture_;
     std::optional<GlCodeTree> tree_;  // if the plan has one
     int most_of_list_ = 0;            // entries of a tile's list that a dispatch draws
