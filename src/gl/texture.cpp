@@ -47,13 +47,6 @@ std::int64_t texel_count(const TexelBox& box) {
            inner.y + inner.height <= outer.height && inner.z + inner.depth <= outer.depth;
 }
 
-// Returns the number of texels in memory from the box's first to its last one, both included.
-[[maybe_unused]] std::int64_t texel_span(const TexelBox& box, PixelStore store) {
-    const std::int64_t row = store.row_length ? store.row_length : box.width;
-    const std::int64_t rows = store.slice_rows ? store.slice_rows : box.height;
-    return ((box.depth - 1) * rows + box.height - 1) * row + box.width;
-}
-
 }  // namespace
 
 Texture Texture::make_1d(TextureFormat format, int width) {
@@ -120,34 +113,29 @@ void Texture::bind(unsigned unit) const {
     api().BindTextureUnit(unit, id());
 }
 
-void Texture::upload(const TexelBox& box, std::span<const std::uint8_t> components,
-                     PixelStore store) {
-    upload_components(box, GL_UNSIGNED_BYTE, components.data(), components.size(), store);
+void Texture::upload(const TexelBox& box, std::span<const std::uint8_t> components) {
+    upload_components(box, GL_UNSIGNED_BYTE, components.data(), components.size());
 }
 
-void Texture::upload(const TexelBox& box, std::span<const std::uint16_t> components,
-                     PixelStore store) {
-    upload_components(box, GL_UNSIGNED_SHORT, components.data(), components.size(), store);
+void Texture::upload(const TexelBox& box, std::span<const std::uint16_t> components) {
+    upload_components(box, GL_UNSIGNED_SHORT, components.data(), components.size());
 }
 
-void Texture::upload(const TexelBox& box, std::span<const std::int16_t> components,
-                     PixelStore store) {
-    upload_components(box, GL_SHORT, components.data(), components.size(), store);
+void Texture::upload(const TexelBox& box, std::span<const std::int16_t> components) {
+    upload_components(box, GL_SHORT, components.data(), components.size());
 }
 
-void Texture::upload(const TexelBox& box, std::span<const float> components, PixelStore store) {
-    upload_components(box, GL_FLOAT, components.data(), components.size(), store);
+void Texture::upload(const TexelBox& box, std::span<const float> components) {
+    upload_components(box, GL_FLOAT, components.data(), components.size());
 }
 
 void Texture::upload_components(const TexelBox& box, unsigned type, const void* components,
-                                [[maybe_unused]] std::size_t count, PixelStore store) {
+                                [[maybe_unused]] std::size_t count) {
     const TextureFormatInfo& info = info_of(format_);
     assert(type == info.component_type);
     assert(contains(whole_, box));
-    assert(std::cmp_greater_equal(count, texel_span(box, store) * info.channels));
+    assert(std::cmp_greater_equal(count, texel_count(box) * info.channels));
     current_context()->counts().bytes_uploaded += texel_count(box) * info.bytes_per_texel;
-    api().PixelStorei(GL_UNPACK_ROW_LENGTH, store.row_length);
-    api().PixelStorei(GL_UNPACK_IMAGE_HEIGHT, store.slice_rows);
     switch (target_) {
         case GL_TEXTURE_1D:
             api().TextureSubImage1D(id(), 0, box.x, box.width, info.layout, type, components);
@@ -161,8 +149,6 @@ void Texture::upload_components(const TexelBox& box, unsigned type, const void* 
                                     info.layout, type, components);
             break;
     }
-    api().PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-    api().PixelStorei(GL_UNPACK_IMAGE_HEIGHT, 0);
     check("uploading a texture");
 }
 
