@@ -71,9 +71,10 @@ Texture::Texture(unsigned target, TextureFormat format, const TexelBox& whole, i
     check_side("depth", whole.depth, max_depth);
     const TextureFormatInfo& info = info_of(format);
     const std::int64_t bytes = texel_count(whole) * info.bytes_per_texel;
-    if (static_cast<std::uint64_t>(bytes) > Capabilities{}.max_texture_bytes) {
+    const std::uint64_t most_bytes = current_context()->capabilities().max_texture_bytes;
+    if (static_cast<std::uint64_t>(bytes) > most_bytes) {
         fail("texture of {} x {} x {} {} takes {} bytes, at most {} are allowed", whole.width,
-             whole.height, whole.depth, info.name, bytes, Capabilities{}.max_texture_bytes);
+             whole.height, whole.depth, info.name, bytes, most_bytes);
     }
     require_memory_left(bytes + memory_for_drawing);
     allocate();
