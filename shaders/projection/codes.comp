@@ -9,7 +9,7 @@
 #include "projection/sources.glsl"
 vec2 window_place;
 #define SEEN
-#define READS_RECORDS
+#define READS_TEXELS
 #define WINDOW_PLACE window_place
 #include "projection/silhouette.glsl"
 #include "projection/tet_color.glsl"
@@ -20,11 +20,11 @@ vec2 window_place;
 #include "compositing/stochastic_over.glsl"
 #endif
 
-layout(std430, binding = 2) buffer Picture { uint words_of_picture[]; };
-layout(std430, binding = 3) readonly buffer Tiles { uvec4 tiles[]; };  // first column, first row, range of `listed`
+layout(std430, binding = 0) buffer Picture { uint words_of_picture[]; };
+layout(std430, binding = 1) readonly buffer Tiles { uvec4 tiles[]; };  // first column, first row, range of `listed`
 // Numbers of records, and in the low 12 bits the pixels that they may cover in the tile: first and last column, first
 // and last row.
-layout(std430, binding = 4) readonly buffer Listed { uint listed[]; };
+uniform usamplerBuffer listed;
 
 uniform ivec2 picture_size;
 uniform int picture_row;        // words in a row
@@ -83,9 +83,14 @@ void main() {
     uvec4 codes = unpacked_codes(words);
     while (true) {
         // Software rasterisers skip no branches, so each pixel looks for its own next fragment.
-        while (next < end && !covers(listed[next], in_tile)) ++next;
+        uint entry = 0u;
+        while (next < end) {
+            entry = texelFetch(listed, int(next)).x;
+            if (covers(entry, in_tile)) break;
+            ++next;
+        }
         if (next >= end) break;
-        read_record(listed[next] >> 12);
+        read_record(entry >> 12);
         ++next;
         codes = composited_fragment(tet_color(), pixel, codes);
     }

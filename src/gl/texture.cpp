@@ -190,6 +190,13 @@ TexelBuffer::TexelBuffer(int components, std::size_t texels)
     check("making a buffer of texels");
 }
 
+void TexelBuffer::reserve(int components, std::size_t texels) {
+    const std::size_t bytes = texels * static_cast<std::size_t>(components) * sizeof(std::uint32_t);
+    if (byte_count() >= bytes) return;
+    const auto most = static_cast<std::size_t>(current_context()->capabilities().max_buffer_texels);
+    *this = TexelBuffer(components, std::max(texels, std::min(texels + texels / 2, most)));
+}
+
 void TexelBuffer::bind(unsigned unit) const {
     api().BindTextureUnit(unit, handle_.id());
 }

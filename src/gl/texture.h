@@ -85,6 +85,8 @@ class TexelBuffer {
     TexelBuffer() = default;
     // `components`: 1 or 4. Throws Error if OpenGL allows fewer texels.
     TexelBuffer(int components, std::size_t texels);
+    // Makes a larger one in its place, undefined again, if it does not hold so many texels.
+    void reserve(int components, std::size_t texels);
 
     // Replaces the texels from the first on.
     template <typename T, std::size_t extent>

@@ -26,22 +26,22 @@ namespace {
 
 constexpr std::size_t batch_size = 32768;  // cell fragments; entries have 20 bits for their numbers
 
+template <typename Record>
+constexpr std::size_t texels_of = sizeof(Record) / (4 * sizeof(std::uint32_t));
+
 constexpr int tiles_of_dispatch = 16384;  // in one dispatch; OpenGL allows 65535
 
-enum StorageBinding : unsigned {
-    record_binding,
-    gradient_binding,
-    picture_binding,
-    tile_binding,
-    entry_binding
-};
+enum StorageBinding : unsigned { picture_binding, tile_binding };
 
-// Returns the entries of all lists that a storage block holds, at most `wanted`. Throws Error if
+// Units behind those of GlTransferTables and GlTree.
+enum TexelUnit { record_unit = GlTransferTables::lit_unit + 1, gradient_unit, entry_unit };
+
+// Returns the entries of all lists that a buffer of texels holds, at most `wanted`. Throws Error if
 // these are fewer than the tiles of a picture, since a cell fragment may cover all.
 std::size_t entries_that_fit(std::size_t wanted, int width, int height) {
     const Capabilities& capabilities = gl::current_context()->capabilities();
     const std::size_t most =
-        std::min(wanted, static_cast<std::size_t>(capabilities.max_storage_bytes) / 4);
+        std::min(wanted, static_cast<std::size_t>(capabilities.max_buffer_texels));
     const std::size_t tiles = TileLists::count(width) * TileLists::count(height);
     if (tiles > most) {
         fail(
@@ -50,14 +50,6 @@ std::size_t entries_that_fit(std::size_t wanted, int width, int height) {
             width, height, tiles, most, capabilities.renderer);
     }
     return most;
-}
-
-// Writes elements to a buffer, which grows if they do not fit.
-template <typename T>
-void write(std::span<const T> elements, gl::Buffer& buffer) {
-    if (buffer.byte_count() < elements.size_bytes())
-        buffer = gl::Buffer(elements.size_bytes() + elements.size_bytes() / 2);
-    buffer.write(elements);
 }
 
 // Returns the entry of a cell fragment in the list of a tile, as projection/codes.comp reads it.
@@ -130,10 +122,16 @@ GlTetCodes::GlTetCodes(const SceneMesh& mesh, const TransferFunction& transfer_f
     tables_.emplace(transfer_function_, plan_);
     table_ms_ = tables.end();
     program_.emplace("projection/codes.comp", tet_code_defines(plan_, *tables_));
-    most_of_list_ =
-        most_in_dispatch(plan_, tables_->intervals(), gl::current_context()->capabilities());
-    records_.resize(std::min(batch_size, static_cast<std::size_t>(visible_->count())));
+    const Capabilities& capabilities = gl::current_context()->capabilities();
+    most_of_list_ = most_in_dispatch(plan_, tables_->intervals(), capabilities);
+    const auto most_texels = static_cast<std::size_t>(capabilities.max_buffer_texels);
+    records_.resize(std::min({batch_size, most_texels / texels_of<SilhouetteRecord>,
+                              static_cast<std::size_t>(visible_->count())}));
+    record_texels_.reserve(4, records_.size() * texels_of<SilhouetteRecord>);
     if (plan_.lighting) gradient_records_.resize(records_.size());
+    gradient_texels_.reserve(4, gradient_records_.size() * texels_of<GradientRecord>);
+    tile_buffer_ =
+        gl::Buffer(TileLists::count(width) * TileLists::count(height) * sizeof(TileLists::Tile));
     areas_.resize(records_.size());
     if (const std::optional<TreeShape> shape = tree_shape())
         tree_.emplace(plan_, *shape, tables_->single_color(), width, height);
@@ -143,7 +141,7 @@ int GlTetCodes::step_count() const {
     if (tree_) return tree_->step_count();
     if (records_.empty()) return 0;
     const auto cell_fragments = static_cast<std::size_t>(visible_->count());
-    return static_cast<int>((cell_fragments + batch_size - 1) / batch_size);
+    return static_cast<int>((cell_fragments + records_.size() - 1) / records_.size());
 }
 
 void GlTetCodes::draw(const View& view, Progress* progress) {
@@ -182,6 +180,9 @@ void GlTetCodes::set_view(const View& view) {
     tables_->bind(*program_);
     set_projection(plan_, gradients_, view, *program_);
     program_->set("picture_size", glm::ivec2(width_, height_));
+    program_->set("records", record_unit);
+    if (plan_.lighting) program_->set("gradient_records", gradient_unit);
+    program_->set("listed", entry_unit);
 }
 
 void GlTetCodes::composite(const TetProjector& projector,
@@ -237,11 +238,11 @@ void GlTetCodes::project(const TetProjector& projector, const DrawOrder<CellFrag
 }
 
 void GlTetCodes::upload_records(std::size_t count) {
-    write(std::span<const SilhouetteRecord>(records_).first(count), record_buffer_);
-    record_buffer_.bind_storage(record_binding);
+    record_texels_.write(std::span(records_).first(count));
+    record_texels_.bind(record_unit);
     if (gradient_records_.empty()) return;
-    write(std::span<const GradientRecord>(gradient_records_).first(count), gradient_buffer_);
-    gradient_buffer_.bind_storage(gradient_binding);
+    gradient_texels_.write(std::span(gradient_records_).first(count));
+    gradient_texels_.bind(gradient_unit);
 }
 
 void GlTetCodes::list(std::size_t first, std::size_t count) {
@@ -253,10 +254,11 @@ void GlTetCodes::list(std::size_t first, std::size_t count) {
     // Longest lists first, so that those which a dispatch draws are the first ones.
     std::ranges::sort(lists_.tiles, std::ranges::greater(),
                       [](const TileLists::Tile& tile) { return tile.end - tile.first; });
-    write(std::span<const TileLists::Tile>(lists_.tiles), tile_buffer_);
-    write(std::span<const std::uint32_t>(lists_.entries), entry_buffer_);
+    tile_buffer_.write(std::span(lists_.tiles));
     tile_buffer_.bind_storage(tile_binding);
-    entry_buffer_.bind_storage(entry_binding);
+    entry_texels_.reserve(1, lists_.entries.size());
+    entry_texels_.write(std::span(lists_.entries));
+    entry_texels_.bind(entry_unit);
 }
 
 void GlTetCodes::dispatch() {

@@ -9,6 +9,7 @@
 #include "executors/gl_code_tree.h"
 #include "executors/gl_pixels.h"
 #include "gl/program.h"
+#include "gl/texture.h"
 #include "gl/timeline.h"
 #include "projection/gl_project_renderer.h"
 #include "projection/project_renderer.h"
@@ -74,7 +75,8 @@ class GlTetCodes : public ProjectRenderer {
     std::vector<GradientRecord> gradient_records_;
     std::vector<PixelArea> areas_;
     TileLists lists_;
-    gl::Buffer record_buffer_, gradient_buffer_, tile_buffer_, entry_buffer_;
+    gl::TexelBuffer record_texels_, gradient_texels_, entry_texels_;
+    gl::Buffer tile_buffer_;
 };
 
 }  // namespace lamina
