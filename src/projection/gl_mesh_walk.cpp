@@ -139,7 +139,7 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
       program_("projection/walk.comp", walk_defines(plan_, tables_, mesh.mesh.has_copies())),
       picture_(PixelPacking::floats, width, height) {
     constexpr std::size_t ray_bytes = 64, pixels_of_tile = EntryTiles::size * EntryTiles::size;
-    rays_ = gl::Buffer(std::min(most_tiles, TileLists::count(width) * TileLists::count(height)) *
+    rays_ = gl::Buffer(std::min(most_tiles, EntryTiles::count(width) * EntryTiles::count(height)) *
                        pixels_of_tile * ray_bytes);
     unfinished_ = gl::Buffer(sizeof(std::uint32_t));
     const Stage uploading("upload mesh");

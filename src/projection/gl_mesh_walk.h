@@ -17,7 +17,7 @@
 namespace lamina {
 
 // Lists, for each tile of a picture that a mesh covers, the open faces by which rays may enter it.
-struct EntryTiles : TileLists {
+struct EntryTiles : TileLists<std::uint32_t> {
     // Lists the faces, by index into `open_faces`, for a view. Throws Error if there are more than
     // `most` entries, which the OpenGL of this name allows.
     void list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view,

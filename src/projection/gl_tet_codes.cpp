@@ -11,6 +11,8 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "base/client.h"
@@ -24,7 +26,8 @@
 namespace lamina {
 namespace {
 
-constexpr std::size_t batch_size = 32768;  // cell fragments; entries have 20 bits for their numbers
+constexpr std::size_t batch_size = 32768;  // cell fragments
+constexpr std::size_t words_of_entry = sizeof(CodeEntry) / sizeof(std::uint32_t);
 
 template <typename Record>
 constexpr std::size_t texels_of = sizeof(Record) / (4 * sizeof(std::uint32_t));
@@ -41,8 +44,8 @@ enum TexelUnit { record_unit = GlTransferTables::lit_unit + 1, gradient_unit, en
 std::size_t entries_that_fit(std::size_t wanted, int width, int height) {
     const Capabilities& capabilities = gl::current_context()->capabilities();
     const std::size_t most =
-        std::min(wanted, static_cast<std::size_t>(capabilities.max_buffer_texels));
-    const std::size_t tiles = TileLists::count(width) * TileLists::count(height);
+        std::min(wanted, static_cast<std::size_t>(capabilities.max_buffer_texels) / words_of_entry);
+    const std::size_t tiles = CodeLists::count(width) * CodeLists::count(height);
     if (tiles > most) {
         fail(
             "image: found {} x {} pixels, which are {} tiles, expected at most {} tiles for a mesh "
@@ -52,16 +55,6 @@ std::size_t entries_that_fit(std::size_t wanted, int width, int height) {
     return most;
 }
 
-// Returns the entry of a cell fragment in the list of a tile, as projection/codes.comp reads it.
-std::uint32_t entry_of(std::size_t number, const PixelArea& area, int column, int row) {
-    const auto place = [](int pixel, int first) {
-        return static_cast<std::uint32_t>(std::clamp(pixel - first, 0, TileLists::size - 1));
-    };
-    return static_cast<std::uint32_t>(number) << 12 | place(area.last_row, row) << 9 |
-           place(area.first_row, row) << 6 | place(area.last_column, column) << 3 |
-           place(area.first_column, column);
-}
-
 }  // namespace
 
 gl::Defines tet_code_defines(const ProjectPlan& plan, const GlProjectTables& tables) {
@@ -69,6 +62,38 @@ gl::Defines tet_code_defines(const ProjectPlan& plan, const GlProjectTables& tab
     gl::Defines defines = project_defines(plan, FragmentKind::careful);
     tables.set_defines(defines);
     return defines;
+}
+
+TilePixelBits pixels_in_tile(const PixelArea& area, const TetOutline& outline, int column,
+                             int row) {
+    constexpr int size = CodeLists::size;
+    // Least and greatest columns in the tile, by row. Those of the area are whole numbers.
+    std::array<float, size> least, greatest;
+    least.fill(static_cast<float>(std::max(area.first_column - column, 0)));
+    greatest.fill(static_cast<float>(std::min(area.last_column - column, size - 1)));
+    const auto from_area = static_cast<float>(column - area.first_column);
+    for (std::size_t line = 0; line < outline.per_row.size(); ++line) {
+        const float per_row = outline.per_row[line];
+        const float first =
+            outline.at_first[line] + per_row * static_cast<float>(row - area.first_row) - from_area;
+        if ((outline.least >> line & 1) != 0) {
+            for (std::size_t i = 0; i < size; ++i)
+                least[i] = std::max(least[i], first + per_row * static_cast<float>(i));
+        } else {
+            for (std::size_t i = 0; i < size; ++i)
+                greatest[i] = std::min(greatest[i], first + per_row * static_cast<float>(i));
+        }
+    }
+    TilePixelBits pixels = 0;
+    const int end_row = std::min(area.last_row - row + 1, size);
+    for (int i = std::max(area.first_row - row, 0); i < end_row; ++i) {
+        const auto place = static_cast<std::size_t>(i);
+        if (!(least[place] <= greatest[place])) continue;  // now both are in [0, size - 1]
+        const auto first = static_cast<int>(std::ceil(least[place]));
+        const auto end = static_cast<int>(std::floor(greatest[place])) + 1;
+        if (first < end) pixels |= TilePixelBits{(1u << end) - (1u << first)} << (size * i);
+    }
+    return pixels;
 }
 
 // Software rasterisers end all loops of an invocation together after 65535 rounds, also those that
@@ -131,8 +156,9 @@ GlTetCodes::GlTetCodes(const SceneMesh& mesh, const TransferFunction& transfer_f
     if (plan_.lighting) gradient_records_.resize(records_.size());
     gradient_texels_.reserve(4, gradient_records_.size() * texels_of<GradientRecord>);
     tile_buffer_ =
-        gl::Buffer(TileLists::count(width) * TileLists::count(height) * sizeof(TileLists::Tile));
+        gl::Buffer(CodeLists::count(width) * CodeLists::count(height) * sizeof(CodeLists::Tile));
     areas_.resize(records_.size());
+    if (capabilities.software) outlines_.resize(records_.size());
     if (const std::optional<TreeShape> shape = tree_shape())
         tree_.emplace(plan_, *shape, tables_->single_color(), width, height);
 }
@@ -199,7 +225,7 @@ void GlTetCodes::composite(const TetProjector& projector,
         const auto areas = std::span<const PixelArea>(areas_).first(in_batch);
         for (std::size_t begin = 0; begin < in_batch;) {
             Stage tiling("geometry");
-            const std::size_t fitting = TileLists::fitting(areas.subspan(begin), most_entries_);
+            const std::size_t fitting = CodeLists::fitting(areas.subspan(begin), most_entries_);
             list(begin, fitting);
             list_ms_ += tiling.end();
             picture.bind(picture_binding, 0, height_);
@@ -220,7 +246,9 @@ void GlTetCodes::project(const TetProjector& projector, const DrawOrder<CellFrag
         ScreenOutline outline;
         GradientRecord* const lit = gradient_records_.empty() ? nullptr : &gradient_records_[i];
         areas_[i] = nowhere;
-        if (!projector.project(batch.items[i], records_[i], outline, lit)) return;
+        const std::optional<FragmentKind> kind =
+            projector.project(batch.items[i], records_[i], outline, lit);
+        if (!kind) return;
         const PixelBounds bounds =
             pixel_bounds(outline.points(), projector.tets().margin, width_, height_);
         if (bounds.empty()) return;
@@ -228,6 +256,7 @@ void GlTetCodes::project(const TetProjector& projector, const DrawOrder<CellFrag
                      height_ - 1 - bounds.first_row};
         if (const PixelArea* const limit = batch.pixels(i))
             areas_[i] = common_pixels(areas_[i], *limit);
+        if (!outlines_.empty() && !areas_[i].empty()) outlines_[i] = outline_of_record(i, *kind);
     });
     std::int32_t last_tet = -1;
     for (std::size_t i = 0; i < count; ++i) {
@@ -235,6 +264,14 @@ void GlTetCodes::project(const TetProjector& projector, const DrawOrder<CellFrag
         if (batch.items[i].tet != last_tet) ++tets_drawn_;
         last_tet = batch.items[i].tet;
     }
+}
+
+// Software rasterisers skip no branches: a pixel takes as long for a cell fragment that it does not
+// meet as for one that it meets. So they get the outlines, which take the processor less time.
+TetOutline GlTetCodes::outline_of_record(std::size_t number, FragmentKind kind) const {
+    const SilhouetteRecord& record = records_[number];
+    const bool found_in_float = kind != FragmentKind::careful && record.front_faces() > 0;
+    return found_in_float ? outline_of(record, areas_[number], height_, 1) : TetOutline();
 }
 
 void GlTetCodes::upload_records(std::size_t count) {
@@ -246,17 +283,24 @@ void GlTetCodes::upload_records(std::size_t count) {
 }
 
 void GlTetCodes::list(std::size_t first, std::size_t count) {
+    const TetOutline everywhere;
     lists_.list(std::span(areas_).subspan(first, count), width_, height_,
                 [&](std::size_t item, int column, int row) {
-                    return entry_of(first + item, areas_[first + item], column, row);
+                    const std::size_t number = first + item;
+                    const TilePixelBits pixels = pixels_in_tile(
+                        areas_[number], outlines_.empty() ? everywhere : outlines_[number], column,
+                        row);
+                    return CodeEntry{static_cast<std::uint32_t>(pixels),
+                                     static_cast<std::uint32_t>(pixels >> 32),
+                                     static_cast<std::uint32_t>(number)};
                 });
     if (lists_.tiles.empty()) return;
     // Longest lists first, so that those which a dispatch draws are the first ones.
     std::ranges::sort(lists_.tiles, std::ranges::greater(),
-                      [](const TileLists::Tile& tile) { return tile.end - tile.first; });
+                      [](const CodeLists::Tile& tile) { return tile.end - tile.first; });
     tile_buffer_.write(std::span(lists_.tiles));
     tile_buffer_.bind_storage(tile_binding);
-    entry_texels_.reserve(1, lists_.entries.size());
+    entry_texels_.reserve(1, words_of_entry * lists_.entries.size());
     entry_texels_.write(std::span(lists_.entries));
     entry_texels_.bind(entry_unit);
 }
@@ -270,7 +314,7 @@ void GlTetCodes::dispatch() {
             program_->set("first_tile", first);
             program_->dispatch(std::min(tiles_of_dispatch, left - first));
         }
-        const auto done = [&](const TileLists::Tile& tile) {
+        const auto done = [&](const CodeLists::Tile& tile) {
             return static_cast<int>(tile.end - tile.first) <= begin + most_of_list_;
         };
         while (left > 0 && done(lists_.tiles[static_cast<std::size_t>(left) - 1])) --left;
