@@ -9,7 +9,7 @@
 #include "projection/sources.glsl"
 vec2 window_place;
 #define SEEN
-#define READS_RECORDS
+#define READS_TEXELS
 #define WINDOW_PLACE window_place
 #include "projection/silhouette.glsl"
 #include "projection/tet_color.glsl"
@@ -20,11 +20,11 @@ vec2 window_place;
 #include "compositing/stochastic_over.glsl"
 #endif
 
-layout(std430, binding = 2) buffer Picture { uint words_of_picture[]; };
-layout(std430, binding = 3) readonly buffer Tiles { uvec4 tiles[]; };  // first column, first row, range of `listed`
-// Numbers of records, and in the low 12 bits the pixels that they may cover in the tile: first and last column, first
-// and last row.
-layout(std430, binding = 4) readonly buffer Listed { uint listed[]; };
+layout(std430, binding = 0) buffer Picture { uint words_of_picture[]; };
+layout(std430, binding = 1) readonly buffer Tiles { uvec4 tiles[]; };  // first column, first row, range of `listed`
+// The words of CodeEntry (projection/gl_tet_codes.h): the pixels of the tile's upper and lower half that the cell
+// fragment may cover, and the number of its record.
+uniform usamplerBuffer listed;
 
 uniform ivec2 picture_size;
 uniform int picture_row;        // words in a row
@@ -32,12 +32,6 @@ uniform int first_tile;         // of the dispatch
 uniform int first_of_list;      // entry of each tile's list with which the dispatch begins
 uniform int most_of_list;       // entries that it draws at most
 uniform int seed;
-
-bool covers(uint entry, ivec2 pixel) {
-    uvec4 box = (uvec4(entry) >> uvec4(0u, 3u, 6u, 9u)) & 7u;
-    uvec2 place = uvec2(pixel);
-    return place.x >= box.x && place.x <= box.y && place.y >= box.z && place.y <= box.w;
-}
 
 #ifdef EMULATED
 uvec4 composited_fragment(vec4 color, ivec2 pixel, uvec4 there) {
@@ -81,11 +75,13 @@ void main() {
     uint words[CODE_WORDS];
     for (int word = 0; word < CODE_WORDS; ++word) words[word] = words_of_picture[place + word];
     uvec4 codes = unpacked_codes(words);
+    int half_of_tile = in_tile.y >> 2;
+    uint bit = 1u << (8 * (in_tile.y & 3) + in_tile.x);
     while (true) {
         // Software rasterisers skip no branches, so each pixel looks for its own next fragment.
-        while (next < end && !covers(listed[next], in_tile)) ++next;
+        while (next < end && (texelFetch(listed, int(3u * next) + half_of_tile).x & bit) == 0u) ++next;
         if (next >= end) break;
-        read_record(listed[next] >> 12);
+        read_record(texelFetch(listed, int(3u * next) + 2).x);
         ++next;
         codes = composited_fragment(tet_color(), pixel, codes);
     }

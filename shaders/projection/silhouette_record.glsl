@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The record of a tet, or of the region of one on which the transfer function is linear (CUT): TetRecord or
 // FragmentRecord (projection/tet_record.h). SEEN: the storage of its members: inputs or outputs of a stage, or nothing
-// for variables. READS_RECORDS: this stage reads records from a buffer.
+// for variables. READS_RECORDS: this stage reads records from a storage block; READS_TEXELS: from a buffer of texels,
+// which takes llvmpipe a fraction of the time.
 
 // The planes of four faces: depth at the center, and its change per column and per row. CAREFUL: doubles, each as the
 // sum of two floats, high and low.
@@ -30,37 +31,50 @@ SEEN OPTICS low_optics, high_optics;  // at least and largest scalar; a: extinct
 SEEN vec4 gradients[3];
 #endif
 
-#ifdef READS_RECORDS
-layout(std430, binding = 0) readonly buffer Records { uvec4 records[]; };
+#if defined(READS_RECORDS) || defined(READS_TEXELS)
 const uint record_size = 12u;
 #ifdef LIT
-layout(std430, binding = 1) readonly buffer GradientRecords { vec4 gradient_records[]; };
 const uint gradient_record_size = 3u;
+#endif
+#ifdef READS_TEXELS
+uniform usamplerBuffer records;
+vec4 record_part(uint place) { return uintBitsToFloat(texelFetch(records, int(place))); }
+#ifdef LIT
+uniform usamplerBuffer gradient_records;
+vec4 gradient_part(uint place) { return uintBitsToFloat(texelFetch(gradient_records, int(place))); }
+#endif
+#else
+layout(std430, binding = 0) readonly buffer Records { uvec4 records[]; };
+vec4 record_part(uint place) { return uintBitsToFloat(records[place]); }
+#ifdef LIT
+layout(std430, binding = 1) readonly buffer GradientRecords { vec4 gradient_records[]; };
+vec4 gradient_part(uint place) { return gradient_records[place]; }
+#endif
 #endif
 
 void read_record(uint record) {
     uint first = record * record_size;
-    for (uint i = 0u; i < 3u * PAIR; ++i) face_depths[i] = uintBitsToFloat(records[first + i * 2u / PAIR]);
-    center = uintBitsToFloat(records[first + 6u]);
+    for (uint i = 0u; i < 3u * PAIR; ++i) face_depths[i] = record_part(first + i * 2u / PAIR);
+    center = record_part(first + 6u);
 #ifdef SCALARS
-    scalars = uintBitsToFloat(records[first + 7u]);
+    scalars = record_part(first + 7u);
 #endif
 #if defined(EXACT_SEGMENTS) && defined(SCALARS)
-    scalars_low = uintBitsToFloat(records[first + 10u]);
+    scalars_low = record_part(first + 10u);
 #endif
-    limits = uintBitsToFloat(records[first + 8u]);
+    limits = record_part(first + 8u);
 #ifdef CUT
-    cuts = uintBitsToFloat(records[first + 9u]);
+    cuts = record_part(first + 9u);
 #ifdef TABLE_COLORED
-    low_optics = uintBitsToFloat(records[first + 10u]);
-    high_optics = uintBitsToFloat(records[first + 11u]);
+    low_optics = record_part(first + 10u);
+    high_optics = record_part(first + 11u);
 #else
-    low_optics = uintBitsToFloat(records[first + 10u].a);
-    high_optics = uintBitsToFloat(records[first + 11u].a);
+    low_optics = record_part(first + 10u).a;
+    high_optics = record_part(first + 11u).a;
 #endif
 #endif
 #ifdef LIT
-    for (uint i = 0u; i < 3u; ++i) gradients[i] = gradient_records[record * gradient_record_size + i];
+    for (uint i = 0u; i < 3u; ++i) gradients[i] = gradient_part(record * gradient_record_size + i);
 #endif
 }
 #endif

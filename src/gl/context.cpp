@@ -5,6 +5,7 @@
 #include <cassert>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/ranges.h>
@@ -22,6 +23,23 @@ int largest_render_target() {
     api().GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
     return std::min({integer(GL_MAX_TEXTURE_SIZE), integer(GL_MAX_FRAMEBUFFER_WIDTH),
                      integer(GL_MAX_FRAMEBUFFER_HEIGHT), viewport[0], viewport[1]});
+}
+
+bool has_extension(std::string_view name) {
+    for (int i = 0; i < integer(GL_NUM_EXTENSIONS); ++i) {
+        if (name == reinterpret_cast<const char*>(
+                        api().GetStringi(GL_EXTENSIONS, static_cast<unsigned>(i))))
+            return true;
+    }
+    return false;
+}
+
+// Returns the bytes of the GPU's memory; 0 if the driver does not tell. NVIDIA's drivers do, and
+// Mesa's of AMD's GPUs.
+std::uint64_t gpu_memory() {
+    constexpr GLenum total_kib = 0x9048;  // GPU_MEMORY_INFO_TOTAL_AVAILABLE_MEMORY_NVX
+    if (!has_extension("GL_NVX_gpu_memory_info")) return 0;
+    return std::uint64_t{1024} * static_cast<std::uint64_t>(std::max(integer(total_kib), 0));
 }
 
 // Recognises a software renderer by its name: EGL may list it as a hardware device.
@@ -95,6 +113,8 @@ void Context::initialise(LoadFunction load, const char* interface_name, bool sof
     capabilities_.subpixel_bits = integer(GL_SUBPIXEL_BITS);
     capabilities_.max_3d_texture_size = integer(GL_MAX_3D_TEXTURE_SIZE);
     capabilities_.max_buffer_texels = integer(GL_MAX_TEXTURE_BUFFER_SIZE);
+    if (!capabilities_.software)
+        capabilities_.max_texture_bytes = max_texture_bytes_of(gpu_memory());
 
     // The log keeps only errors, for check(). Dithering would change codes of fixed-point targets.
     api().Enable(GL_DEBUG_OUTPUT);

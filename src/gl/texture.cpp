@@ -47,13 +47,6 @@ std::int64_t texel_count(const TexelBox& box) {
            inner.y + inner.height <= outer.height && inner.z + inner.depth <= outer.depth;
 }
 
-// Returns the number of texels in memory from the box's first to its last one, both included.
-[[maybe_unused]] std::int64_t texel_span(const TexelBox& box, PixelStore store) {
-    const std::int64_t row = store.row_length ? store.row_length : box.width;
-    const std::int64_t rows = store.slice_rows ? store.slice_rows : box.height;
-    return ((box.depth - 1) * rows + box.height - 1) * row + box.width;
-}
-
 }  // namespace
 
 Texture Texture::make_1d(TextureFormat format, int width) {
@@ -78,9 +71,10 @@ Texture::Texture(unsigned target, TextureFormat format, const TexelBox& whole, i
     check_side("depth", whole.depth, max_depth);
     const TextureFormatInfo& info = info_of(format);
     const std::int64_t bytes = texel_count(whole) * info.bytes_per_texel;
-    if (static_cast<std::uint64_t>(bytes) > Capabilities{}.max_texture_bytes) {
+    const std::uint64_t most_bytes = current_context()->capabilities().max_texture_bytes;
+    if (static_cast<std::uint64_t>(bytes) > most_bytes) {
         fail("texture of {} x {} x {} {} takes {} bytes, at most {} are allowed", whole.width,
-             whole.height, whole.depth, info.name, bytes, Capabilities{}.max_texture_bytes);
+             whole.height, whole.depth, info.name, bytes, most_bytes);
     }
     require_memory_left(bytes + memory_for_drawing);
     allocate();
@@ -120,34 +114,29 @@ void Texture::bind(unsigned unit) const {
     api().BindTextureUnit(unit, id());
 }
 
-void Texture::upload(const TexelBox& box, std::span<const std::uint8_t> components,
-                     PixelStore store) {
-    upload_components(box, GL_UNSIGNED_BYTE, components.data(), components.size(), store);
+void Texture::upload(const TexelBox& box, std::span<const std::uint8_t> components) {
+    upload_components(box, GL_UNSIGNED_BYTE, components.data(), components.size());
 }
 
-void Texture::upload(const TexelBox& box, std::span<const std::uint16_t> components,
-                     PixelStore store) {
-    upload_components(box, GL_UNSIGNED_SHORT, components.data(), components.size(), store);
+void Texture::upload(const TexelBox& box, std::span<const std::uint16_t> components) {
+    upload_components(box, GL_UNSIGNED_SHORT, components.data(), components.size());
 }
 
-void Texture::upload(const TexelBox& box, std::span<const std::int16_t> components,
-                     PixelStore store) {
-    upload_components(box, GL_SHORT, components.data(), components.size(), store);
+void Texture::upload(const TexelBox& box, std::span<const std::int16_t> components) {
+    upload_components(box, GL_SHORT, components.data(), components.size());
 }
 
-void Texture::upload(const TexelBox& box, std::span<const float> components, PixelStore store) {
-    upload_components(box, GL_FLOAT, components.data(), components.size(), store);
+void Texture::upload(const TexelBox& box, std::span<const float> components) {
+    upload_components(box, GL_FLOAT, components.data(), components.size());
 }
 
 void Texture::upload_components(const TexelBox& box, unsigned type, const void* components,
-                                [[maybe_unused]] std::size_t count, PixelStore store) {
+                                [[maybe_unused]] std::size_t count) {
     const TextureFormatInfo& info = info_of(format_);
     assert(type == info.component_type);
     assert(contains(whole_, box));
-    assert(std::cmp_greater_equal(count, texel_span(box, store) * info.channels));
+    assert(std::cmp_greater_equal(count, texel_count(box) * info.channels));
     current_context()->counts().bytes_uploaded += texel_count(box) * info.bytes_per_texel;
-    api().PixelStorei(GL_UNPACK_ROW_LENGTH, store.row_length);
-    api().PixelStorei(GL_UNPACK_IMAGE_HEIGHT, store.slice_rows);
     switch (target_) {
         case GL_TEXTURE_1D:
             api().TextureSubImage1D(id(), 0, box.x, box.width, info.layout, type, components);
@@ -161,8 +150,6 @@ void Texture::upload_components(const TexelBox& box, unsigned type, const void* 
                                     info.layout, type, components);
             break;
     }
-    api().PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-    api().PixelStorei(GL_UNPACK_IMAGE_HEIGHT, 0);
     check("uploading a texture");
 }
 
@@ -201,6 +188,13 @@ TexelBuffer::TexelBuffer(int components, std::size_t texels)
     handle_ = Handle<ObjectKind::texture>(id);
     api().TextureBuffer(id, components == 1 ? GL_R32UI : GL_RGBA32UI, buffer_.id());
     check("making a buffer of texels");
+}
+
+void TexelBuffer::reserve(int components, std::size_t texels) {
+    const std::size_t bytes = texels * static_cast<std::size_t>(components) * sizeof(std::uint32_t);
+    if (byte_count() >= bytes) return;
+    const auto most = static_cast<std::size_t>(current_context()->capabilities().max_buffer_texels);
+    *this = TexelBuffer(components, std::max(texels, std::min(texels + texels / 2, most)));
 }
 
 void TexelBuffer::bind(unsigned unit) const {

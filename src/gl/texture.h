@@ -34,13 +34,6 @@ struct TexelBox {
     int width = 1, height = 1, depth = 1;
 };
 
-// Strides in host memory, for a box cut out of a larger grid: texels from one row to the next, and
-// rows from one slice to the next; 0: the box's own width or height.
-struct PixelStore {
-    int row_length = 0;
-    int slice_rows = 0;
-};
-
 // A texture of one level and fixed size, clamped to its edge, `nearest` at first, undefined until
 // filled. Throws Error for sizes below 1, beyond limits (max_texture_bytes), or out of memory.
 class Texture {
@@ -52,13 +45,10 @@ class Texture {
 
     // Fills `box`, x fastest, from `components`, which must reach its last texel (assert): uint8
     // for r8 and rgba8, uint16 for r16 and rgba16, int16 for rgba16i, float for the rest.
-    void upload(const TexelBox& box, std::span<const std::uint8_t> components,
-                PixelStore store = {});
-    void upload(const TexelBox& box, std::span<const std::uint16_t> components,
-                PixelStore store = {});
-    void upload(const TexelBox& box, std::span<const std::int16_t> components,
-                PixelStore store = {});
-    void upload(const TexelBox& box, std::span<const float> components, PixelStore store = {});
+    void upload(const TexelBox& box, std::span<const std::uint8_t> components);
+    void upload(const TexelBox& box, std::span<const std::uint16_t> components);
+    void upload(const TexelBox& box, std::span<const std::int16_t> components);
+    void upload(const TexelBox& box, std::span<const float> components);
 
     void set_filter(TextureFilter filter);
     void bind(unsigned unit) const;
@@ -79,7 +69,7 @@ class Texture {
     Texture(unsigned target, TextureFormat format, const TexelBox& whole, int max_depth);
     void allocate();
     void upload_components(const TexelBox& box, unsigned type, const void* components,
-                           std::size_t count, PixelStore store);
+                           std::size_t count);
 
     unsigned target_ = 0;
     TextureFormat format_ = TextureFormat::r8;
@@ -95,6 +85,8 @@ class TexelBuffer {
     TexelBuffer() = default;
     // `components`: 1 or 4. Throws Error if OpenGL allows fewer texels.
     TexelBuffer(int components, std::size_t texels);
+    // Makes a larger one in its place, undefined again, if it does not hold so many texels.
+    void reserve(int components, std::size_t texels);
 
     // Replaces the texels from the first on.
     template <typename T, std::size_t extent>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -17,8 +18,8 @@ struct Capabilities {
     std::int64_t max_storage_bytes = std::int64_t{1} << 27;  // GL_MAX_SHADER_STORAGE_BLOCK_SIZE
     int max_buffer_texels = 0;  // GL_MAX_TEXTURE_BUFFER_SIZE; 0: no compute shaders
     int subpixel_bits = 8;      // GL_SUBPIXEL_BITS: corners are rounded to a grid this fine
-    // Largest texture that is made. The limits that OpenGL reports are not reliable
-    // (docs/numerics.md, section 2).
+    // Largest texture that is made; larger volumes are cut into bricks. OpenGL reports no such
+    // limit (docs/numerics.md, section 2): 1 GiB in software and on GPUs of unknown memory.
     std::uint64_t max_texture_bytes = std::uint64_t{1} << 30;
     // Measured: linear filtering of R32F has errors below 1e-6 (true on llvmpipe, not on GPUs).
     bool exact_float_filter = false;
@@ -26,6 +27,13 @@ struct Capabilities {
     // trials of filters assume. It matters only if exact_float_filter is false.
     bool eight_bit_filter = false;
 };
+
+// Returns max_texture_bytes for a GPU with so many bytes of memory; 0: unknown. A lit volume has
+// two large textures, samples and gradients, and pictures and tables need room beside them, so that
+// one texture takes at most a quarter.
+inline std::uint64_t max_texture_bytes_of(std::uint64_t memory_bytes) {
+    return std::max(Capabilities{}.max_texture_bytes, memory_bytes / 4);
+}
 
 // Returns the renderer, and its number of threads if that is known, for reports of times.
 inline std::string renderer_and_threads(const Capabilities& capabilities) {

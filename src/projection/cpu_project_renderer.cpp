@@ -57,19 +57,15 @@ CpuProjectRenderer::CpuProjectRenderer(const SceneMesh& mesh,
     fragments_.seed = plan_.seed;
     fragments_.blend = target_blend(plan_);
     if (plan_.lighting) {
-        const Stage stage("gradients");
-        gradients_ = StoredGradients(gradients_of(mesh_), *plan_.lighting->smallest_gradient);
         light_ = make_tile_light(*plan_.lighting, world_axes, plan_.most_bend, faint_share_of_tets);
         fragments_.light = &*light_;
         fragments_.smallest_square = gradients_.smallest_square(*plan_.lighting);
         fragments_.slanted = fragments_.perspective && plan_.thickness == Thickness::exact;
     }
-    find_visible_cell_fragments();
-    if (!plan_.tree.empty() && visible_->count() > 0) {
+    if (const std::optional<TreeShape> shape = tree_shape()) {
         const glm::vec3& color = fragments_.single_color;
         fragments_.opacity_only = true;
-        tree_.emplace(plan_, TreeShape(plan_.tree, static_cast<int>(visible_->count())),
-                      std::array{color.r, color.g, color.b}, image_.grid());
+        tree_.emplace(plan_, *shape, std::array{color.r, color.g, color.b}, image_.grid());
     }
     // A batch has enough chunks that the tiles of all threads find work, and few enough that it
     // fits the caches (2 MB with 800 x 600 pixels). Two batches together take less memory than a

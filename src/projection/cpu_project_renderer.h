@@ -102,7 +102,6 @@ class CpuProjectRenderer : public ProjectRenderer {
     std::shared_ptr<const UniformTable> table_;
     std::optional<CpuTransfer> transfer_;  // for SegmentSource::cut_table and ::analytic
     std::optional<CpuTetTree> tree_;       // none if the plan has none
-    StoredGradients gradients_;            // empty if nothing is lit
     std::optional<CpuLight> light_;        // none if nothing is lit
     TetFragments fragments_{};
     TileImage image_;

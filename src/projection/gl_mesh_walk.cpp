@@ -70,15 +70,6 @@ gl::TexelBuffer make_texels(const std::vector<T>& texels) {
     return buffer;
 }
 
-// Makes the buffer larger if it does not hold `texels`.
-void reserve(gl::TexelBuffer& buffer, int components, std::size_t texels) {
-    const std::size_t bytes = texels * static_cast<std::size_t>(components) * sizeof(std::uint32_t);
-    if (buffer.byte_count() >= bytes) return;
-    const auto most =
-        static_cast<std::size_t>(gl::current_context()->capabilities().max_buffer_texels);
-    buffer = gl::TexelBuffer(components, std::max(texels, std::min(texels + texels / 2, most)));
-}
-
 }  // namespace
 
 gl::Defines walk_defines(const ProjectPlan& plan, const GlProjectTables& tables, bool copies) {
@@ -147,10 +138,8 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
       tables_(transfer_function_, plan_),
       program_("projection/walk.comp", walk_defines(plan_, tables_, mesh.mesh.has_copies())),
       picture_(PixelPacking::floats, width, height) {
-    if (plan_.lighting)
-        gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
     constexpr std::size_t ray_bytes = 64, pixels_of_tile = EntryTiles::size * EntryTiles::size;
-    rays_ = gl::Buffer(std::min(most_tiles, TileLists::count(width) * TileLists::count(height)) *
+    rays_ = gl::Buffer(std::min(most_tiles, EntryTiles::count(width) * EntryTiles::count(height)) *
                        pixels_of_tile * ray_bytes);
     unfinished_ = gl::Buffer(sizeof(std::uint32_t));
     const Stage uploading("upload mesh");
@@ -257,8 +246,8 @@ void GlMeshWalk::upload_faces() {
 
 void GlMeshWalk::upload_tiles() {
     if (entries_.tiles.empty()) return;
-    reserve(tiles_, 4, entries_.tiles.size());
-    reserve(listed_faces_, 1, entries_.entries.size());
+    tiles_.reserve(4, entries_.tiles.size());
+    listed_faces_.reserve(1, entries_.entries.size());
     tiles_.write(std::span(entries_.tiles));
     listed_faces_.write(std::span(entries_.entries));
 }

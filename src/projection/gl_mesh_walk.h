@@ -17,7 +17,7 @@
 namespace lamina {
 
 // Lists, for each tile of a picture that a mesh covers, the open faces by which rays may enter it.
-struct EntryTiles : TileLists {
+struct EntryTiles : TileLists<std::uint32_t> {
     // Lists the faces, by index into `open_faces`, for a view. Throws Error if there are more than
     // `most` entries, which the OpenGL of this name allows.
     void list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view,
@@ -68,7 +68,6 @@ class GlMeshWalk : public ProjectRenderer {
     std::vector<TetFace> faces_;  // by which rays enter
     bool around_hidden_ = false;  // rays leave the mesh at tets that show nothing
     EntryTiles entries_;
-    StoredGradients gradients_;  // empty if nothing is lit
     gl::TexelBuffer tets_, neighbors_, corners_, points_, gradient_texels_, open_faces_;
     gl::TexelBuffer tiles_, listed_faces_;
     gl::Buffer rays_, unfinished_;

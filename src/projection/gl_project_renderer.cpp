@@ -261,8 +261,6 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
     Stage tables("tables");
     tables_.emplace(transfer_function_, plan_);
     table_ms_ = tables.end();
-    if (plan_.lighting)
-        gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
     for (std::size_t i = 0; i < fragment_kinds; ++i) {
         const auto kind = static_cast<FragmentKind>(i);
         if (!has_program(plan_, kind)) continue;
@@ -271,13 +269,10 @@ GlProjectRenderer::GlProjectRenderer(const SceneMesh& mesh,
         programs_[i].emplace(is_fan() ? "projection/fan.vert" : "projection/silhouette.vert",
                              "projection/tet.frag", defines);
     }
-    find_visible_cell_fragments();
     if (visible_->count() == 0) return;
     make_stream(std::move(stream));
-    if (plan_.tree.empty()) return;
-    // The tree's samples are the mesh's cell fragments, whose number does not depend on the view.
-    const TreeShape shape(plan_.tree, static_cast<int>(visible_->count()));
-    tree_.emplace(plan_, shape, tables_->single_color(), target_.width(), target_.height());
+    if (const std::optional<TreeShape> shape = tree_shape())
+        tree_.emplace(plan_, *shape, tables_->single_color(), target_.width(), target_.height());
 }
 
 void GlProjectRenderer::make_stream(std::shared_ptr<GlTetStream> ready) {

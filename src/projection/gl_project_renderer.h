@@ -76,7 +76,6 @@ class GlProjectRenderer : public ProjectRenderer {
     double margin_;  // pixels by which silhouettes are enlarged
     gl::Framebuffer target_;
     std::optional<GlProjectTables> tables_;                            // none if nothing is visible
-    StoredGradients gradients_;                                        // empty if nothing is lit
     std::array<std::optional<gl::Program>, fragment_kinds> programs_;  // by FragmentKind
     std::shared_ptr<GlTetStream> stream_;
     std::optional<GlFixedTree> tree_;  // if the plan has one

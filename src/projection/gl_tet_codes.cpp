@@ -11,6 +11,8 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "base/client.h"
@@ -24,25 +26,26 @@
 namespace lamina {
 namespace {
 
-constexpr std::size_t batch_size = 32768;  // cell fragments; entries have 20 bits for their numbers
+constexpr std::size_t batch_size = 32768;  // cell fragments
+constexpr std::size_t words_of_entry = sizeof(CodeEntry) / sizeof(std::uint32_t);
+
+template <typename Record>
+constexpr std::size_t texels_of = sizeof(Record) / (4 * sizeof(std::uint32_t));
 
 constexpr int tiles_of_dispatch = 16384;  // in one dispatch; OpenGL allows 65535
 
-enum StorageBinding : unsigned {
-    record_binding,
-    gradient_binding,
-    picture_binding,
-    tile_binding,
-    entry_binding
-};
+enum StorageBinding : unsigned { picture_binding, tile_binding };
 
-// Returns the entries of all lists that a storage block holds, at most `wanted`. Throws Error if
+// Units behind those of GlTransferTables and GlTree.
+enum TexelUnit { record_unit = GlTransferTables::lit_unit + 1, gradient_unit, entry_unit };
+
+// Returns the entries of all lists that a buffer of texels holds, at most `wanted`. Throws Error if
 // these are fewer than the tiles of a picture, since a cell fragment may cover all.
 std::size_t entries_that_fit(std::size_t wanted, int width, int height) {
     const Capabilities& capabilities = gl::current_context()->capabilities();
     const std::size_t most =
-        std::min(wanted, static_cast<std::size_t>(capabilities.max_storage_bytes) / 4);
-    const std::size_t tiles = TileLists::count(width) * TileLists::count(height);
+        std::min(wanted, static_cast<std::size_t>(capabilities.max_buffer_texels) / words_of_entry);
+    const std::size_t tiles = CodeLists::count(width) * CodeLists::count(height);
     if (tiles > most) {
         fail(
             "image: found {} x {} pixels, which are {} tiles, expected at most {} tiles for a mesh "
@@ -52,24 +55,6 @@ std::size_t entries_that_fit(std::size_t wanted, int width, int height) {
     return most;
 }
 
-// Writes elements to a buffer, which grows if they do not fit.
-template <typename T>
-void write(std::span<const T> elements, gl::Buffer& buffer) {
-    if (buffer.byte_count() < elements.size_bytes())
-        buffer = gl::Buffer(elements.size_bytes() + elements.size_bytes() / 2);
-    buffer.write(elements);
-}
-
-// Returns the entry of a cell fragment in the list of a tile, as projection/codes.comp reads it.
-std::uint32_t entry_of(std::size_t number, const PixelArea& area, int column, int row) {
-    const auto place = [](int pixel, int first) {
-        return static_cast<std::uint32_t>(std::clamp(pixel - first, 0, TileLists::size - 1));
-    };
-    return static_cast<std::uint32_t>(number) << 12 | place(area.last_row, row) << 9 |
-           place(area.first_row, row) << 6 | place(area.last_column, column) << 3 |
-           place(area.first_column, column);
-}
-
 }  // namespace
 
 gl::Defines tet_code_defines(const ProjectPlan& plan, const GlProjectTables& tables) {
@@ -77,6 +62,38 @@ gl::Defines tet_code_defines(const ProjectPlan& plan, const GlProjectTables& tab
     gl::Defines defines = project_defines(plan, FragmentKind::careful);
     tables.set_defines(defines);
     return defines;
+}
+
+TilePixelBits pixels_in_tile(const PixelArea& area, const TetOutline& outline, int column,
+                             int row) {
+    constexpr int size = CodeLists::size;
+    // Least and greatest columns in the tile, by row. Those of the area are whole numbers.
+    std::array<float, size> least, greatest;
+    least.fill(static_cast<float>(std::max(area.first_column - column, 0)));
+    greatest.fill(static_cast<float>(std::min(area.last_column - column, size - 1)));
+    const auto from_area = static_cast<float>(column - area.first_column);
+    for (std::size_t line = 0; line < outline.per_row.size(); ++line) {
+        const float per_row = outline.per_row[line];
+        const float first =
+            outline.at_first[line] + per_row * static_cast<float>(row - area.first_row) - from_area;
+        if ((outline.least >> line & 1) != 0) {
+            for (std::size_t i = 0; i < size; ++i)
+                least[i] = std::max(least[i], first + per_row * static_cast<float>(i));
+        } else {
+            for (std::size_t i = 0; i < size; ++i)
+                greatest[i] = std::min(greatest[i], first + per_row * static_cast<float>(i));
+        }
+    }
+    TilePixelBits pixels = 0;
+    const int end_row = std::min(area.last_row - row + 1, size);
+    for (int i = std::max(area.first_row - row, 0); i < end_row; ++i) {
+        const auto place = static_cast<std::size_t>(i);
+        if (!(least[place] <= greatest[place])) continue;  // now both are in [0, size - 1]
+        const auto first = static_cast<int>(std::ceil(least[place]));
+        const auto end = static_cast<int>(std::floor(greatest[place])) + 1;
+        if (first < end) pixels |= TilePixelBits{(1u << end) - (1u << first)} << (size * i);
+    }
+    return pixels;
 }
 
 // Software rasterisers end all loops of an invocation together after 65535 rounds, also those that
@@ -129,26 +146,28 @@ GlTetCodes::GlTetCodes(const SceneMesh& mesh, const TransferFunction& transfer_f
     Stage tables("tables");
     tables_.emplace(transfer_function_, plan_);
     table_ms_ = tables.end();
-    if (plan_.lighting)
-        gradients_ = StoredGradients(gradients_of(mesh), *plan_.lighting->smallest_gradient);
     program_.emplace("projection/codes.comp", tet_code_defines(plan_, *tables_));
-    most_of_list_ =
-        most_in_dispatch(plan_, tables_->intervals(), gl::current_context()->capabilities());
-    find_visible_cell_fragments();
-    const auto cell_fragments = static_cast<std::size_t>(visible_->count());
-    records_.resize(std::min(batch_size, cell_fragments));
+    const Capabilities& capabilities = gl::current_context()->capabilities();
+    most_of_list_ = most_in_dispatch(plan_, tables_->intervals(), capabilities);
+    const auto most_texels = static_cast<std::size_t>(capabilities.max_buffer_texels);
+    records_.resize(std::min({batch_size, most_texels / texels_of<SilhouetteRecord>,
+                              static_cast<std::size_t>(visible_->count())}));
+    record_texels_.reserve(4, records_.size() * texels_of<SilhouetteRecord>);
     if (plan_.lighting) gradient_records_.resize(records_.size());
+    gradient_texels_.reserve(4, gradient_records_.size() * texels_of<GradientRecord>);
+    tile_buffer_ =
+        gl::Buffer(CodeLists::count(width) * CodeLists::count(height) * sizeof(CodeLists::Tile));
     areas_.resize(records_.size());
-    if (plan_.tree.empty() || cell_fragments == 0) return;
-    const TreeShape shape(plan_.tree, static_cast<int>(cell_fragments));
-    tree_.emplace(plan_, shape, tables_->single_color(), width, height);
+    if (capabilities.software) outlines_.resize(records_.size());
+    if (const std::optional<TreeShape> shape = tree_shape())
+        tree_.emplace(plan_, *shape, tables_->single_color(), width, height);
 }
 
 int GlTetCodes::step_count() const {
     if (tree_) return tree_->step_count();
     if (records_.empty()) return 0;
     const auto cell_fragments = static_cast<std::size_t>(visible_->count());
-    return static_cast<int>((cell_fragments + batch_size - 1) / batch_size);
+    return static_cast<int>((cell_fragments + records_.size() - 1) / records_.size());
 }
 
 void GlTetCodes::draw(const View& view, Progress* progress) {
@@ -187,6 +206,9 @@ void GlTetCodes::set_view(const View& view) {
     tables_->bind(*program_);
     set_projection(plan_, gradients_, view, *program_);
     program_->set("picture_size", glm::ivec2(width_, height_));
+    program_->set("records", record_unit);
+    if (plan_.lighting) program_->set("gradient_records", gradient_unit);
+    program_->set("listed", entry_unit);
 }
 
 void GlTetCodes::composite(const TetProjector& projector,
@@ -203,7 +225,7 @@ void GlTetCodes::composite(const TetProjector& projector,
         const auto areas = std::span<const PixelArea>(areas_).first(in_batch);
         for (std::size_t begin = 0; begin < in_batch;) {
             Stage tiling("geometry");
-            const std::size_t fitting = TileLists::fitting(areas.subspan(begin), most_entries_);
+            const std::size_t fitting = CodeLists::fitting(areas.subspan(begin), most_entries_);
             list(begin, fitting);
             list_ms_ += tiling.end();
             picture.bind(picture_binding, 0, height_);
@@ -224,7 +246,9 @@ void GlTetCodes::project(const TetProjector& projector, const DrawOrder<CellFrag
         ScreenOutline outline;
         GradientRecord* const lit = gradient_records_.empty() ? nullptr : &gradient_records_[i];
         areas_[i] = nowhere;
-        if (!projector.project(batch.items[i], records_[i], outline, lit)) return;
+        const std::optional<FragmentKind> kind =
+            projector.project(batch.items[i], records_[i], outline, lit);
+        if (!kind) return;
         const PixelBounds bounds =
             pixel_bounds(outline.points(), projector.tets().margin, width_, height_);
         if (bounds.empty()) return;
@@ -232,6 +256,7 @@ void GlTetCodes::project(const TetProjector& projector, const DrawOrder<CellFrag
                      height_ - 1 - bounds.first_row};
         if (const PixelArea* const limit = batch.pixels(i))
             areas_[i] = common_pixels(areas_[i], *limit);
+        if (!outlines_.empty() && !areas_[i].empty()) outlines_[i] = outline_of_record(i, *kind);
     });
     std::int32_t last_tet = -1;
     for (std::size_t i = 0; i < count; ++i) {
@@ -241,27 +266,43 @@ void GlTetCodes::project(const TetProjector& projector, const DrawOrder<CellFrag
     }
 }
 
+// Software rasterisers skip no branches: a pixel takes as long for a cell fragment that it does not
+// meet as for one that it meets. So they get the outlines, which take the processor less time.
+TetOutline GlTetCodes::outline_of_record(std::size_t number, FragmentKind kind) const {
+    const SilhouetteRecord& record = records_[number];
+    const bool found_in_float = kind != FragmentKind::careful && record.front_faces() > 0;
+    return found_in_float ? outline_of(record, areas_[number], height_, 1) : TetOutline();
+}
+
 void GlTetCodes::upload_records(std::size_t count) {
-    write(std::span<const SilhouetteRecord>(records_).first(count), record_buffer_);
-    record_buffer_.bind_storage(record_binding);
+    record_texels_.write(std::span(records_).first(count));
+    record_texels_.bind(record_unit);
     if (gradient_records_.empty()) return;
-    write(std::span<const GradientRecord>(gradient_records_).first(count), gradient_buffer_);
-    gradient_buffer_.bind_storage(gradient_binding);
+    gradient_texels_.write(std::span(gradient_records_).first(count));
+    gradient_texels_.bind(gradient_unit);
 }
 
 void GlTetCodes::list(std::size_t first, std::size_t count) {
+    const TetOutline everywhere;
     lists_.list(std::span(areas_).subspan(first, count), width_, height_,
                 [&](std::size_t item, int column, int row) {
-                    return entry_of(first + item, areas_[first + item], column, row);
+                    const std::size_t number = first + item;
+                    const TilePixelBits pixels = pixels_in_tile(
+                        areas_[number], outlines_.empty() ? everywhere : outlines_[number], column,
+                        row);
+                    return CodeEntry{static_cast<std::uint32_t>(pixels),
+                                     static_cast<std::uint32_t>(pixels >> 32),
+                                     static_cast<std::uint32_t>(number)};
                 });
     if (lists_.tiles.empty()) return;
     // Longest lists first, so that those which a dispatch draws are the first ones.
     std::ranges::sort(lists_.tiles, std::ranges::greater(),
-                      [](const TileLists::Tile& tile) { return tile.end - tile.first; });
-    write(std::span<const TileLists::Tile>(lists_.tiles), tile_buffer_);
-    write(std::span<const std::uint32_t>(lists_.entries), entry_buffer_);
+                      [](const CodeLists::Tile& tile) { return tile.end - tile.first; });
+    tile_buffer_.write(std::span(lists_.tiles));
     tile_buffer_.bind_storage(tile_binding);
-    entry_buffer_.bind_storage(entry_binding);
+    entry_texels_.reserve(1, words_of_entry * lists_.entries.size());
+    entry_texels_.write(std::span(lists_.entries));
+    entry_texels_.bind(entry_unit);
 }
 
 void GlTetCodes::dispatch() {
@@ -273,7 +314,7 @@ void GlTetCodes::dispatch() {
             program_->set("first_tile", first);
             program_->dispatch(std::min(tiles_of_dispatch, left - first));
         }
-        const auto done = [&](const TileLists::Tile& tile) {
+        const auto done = [&](const CodeLists::Tile& tile) {
             return static_cast<int>(tile.end - tile.first) <= begin + most_of_list_;
         };
         while (left > 0 && done(lists_.tiles[static_cast<std::size_t>(left) - 1])) --left;

@@ -9,6 +9,7 @@
 #include "executors/gl_code_tree.h"
 #include "executors/gl_pixels.h"
 #include "gl/program.h"
+#include "gl/texture.h"
 #include "gl/timeline.h"
 #include "projection/gl_project_renderer.h"
 #include "projection/project_renderer.h"
@@ -25,12 +26,26 @@ gl::Defines tet_code_defines(const ProjectPlan& plan, const GlProjectTables& tab
 // one cell fragment.
 int most_in_dispatch(const ProjectPlan& plan, int intervals, const Capabilities& capabilities);
 
+// The pixels of a tile: a bit each, row after row from the upper left one on.
+using TilePixelBits = std::uint64_t;
+
+// Returns the pixels of the tile of this upper left pixel that lie in the area and within the
+// outline, which was found for this area and blocks of one pixel.
+TilePixelBits pixels_in_tile(const PixelArea& area, const TetOutline& outline, int column, int row);
+
+// A cell fragment in the list of a tile, as shaders/projection/codes.comp reads it.
+struct CodeEntry {
+    std::uint32_t upper_pixels, lower_pixels;  // the halves of TilePixelBits
+    std::uint32_t record;                      // its number
+};
+using CodeLists = TileLists<CodeEntry>;
+
 // Draws a mesh on codes, for Target::emulated and ProjectDither::after_blend, in the current OpenGL
 // context, which must outlive it. A compute shader composites the cell fragments that are listed
 // for each tile of the picture, in visibility order.
 class GlTetCodes : public ProjectRenderer {
   public:
-    static constexpr std::size_t most_entries = std::size_t{1} << 24;  // of all lists: 64 MiB
+    static constexpr std::size_t most_entries = std::size_t{1} << 22;  // of all lists: 48 MiB
 
     // The plan must have Blending::registers. The mesh must outlive the renderer. `entries`: bound
     // on the entries of all tiles' lists at a time; the context may allow fewer. Throws Error if a
@@ -56,6 +71,7 @@ class GlTetCodes : public ProjectRenderer {
                    const GlPixels& picture, const std::function<void()>& batch_done);
     void project(const TetProjector& projector, const DrawOrder<CellFragment>& batch);
     void upload_records(std::size_t count);
+    TetOutline outline_of_record(std::size_t number, FragmentKind kind) const;
     // Lists cell fragments of the batch, from `first` on, for the tiles.
     void list(std::size_t first, std::size_t count);
     void dispatch();
@@ -63,7 +79,6 @@ class GlTetCodes : public ProjectRenderer {
     int width_, height_;
     std::optional<GlProjectTables> tables_;  // none if nothing is visible
     std::optional<gl::Program> program_;
-    StoredGradients gradients_;  // empty if nothing is lit
     GlPixels picture_;
     std::optional<GlCodeTree> tree_;  // if the plan has one
     int most_of_list_ = 0;            // entries of a tile's list that a dispatch draws
@@ -74,8 +89,10 @@ class GlTetCodes : public ProjectRenderer {
     std::vector<SilhouetteRecord> records_;
     std::vector<GradientRecord> gradient_records_;
     std::vector<PixelArea> areas_;
-    TileLists lists_;
-    gl::Buffer record_buffer_, gradient_buffer_, tile_buffer_, entry_buffer_;
+    std::vector<TetOutline> outlines_;  // empty on GPUs
+    CodeLists lists_;
+    gl::TexelBuffer record_texels_, gradient_texels_, entry_texels_;
+    gl::Buffer tile_buffer_;
 };
 
 }  // namespace lamina

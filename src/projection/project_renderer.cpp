@@ -21,12 +21,20 @@ ProjectRenderer::ProjectRenderer(const SceneMesh& mesh, const TransferFunction& 
         plan.nothing_visible || plan.walk ? OrderMethod::none : plan.visibility;
     if (!order_ || order_->method() != method)
         order_ = std::make_shared<VisibilityOrder>(mesh.mesh, method);
-}
-
-void ProjectRenderer::find_visible_cell_fragments() {
+    if (plan_.nothing_visible) return;
+    if (plan_.lighting) {
+        const Stage stage("gradients");
+        gradients_ = StoredGradients(gradients_of(mesh_), *plan_.lighting->smallest_gradient);
+    }
+    if (plan_.walk) return;
     const Stage cutting("visible parts");
     visible_.emplace(mesh_.mesh, mesh_.scalar.values, pieces_, plan_.source == SegmentSource::parts,
                      plan_.draw_transparent);
+}
+
+std::optional<TreeShape> ProjectRenderer::tree_shape() const {
+    if (plan_.tree.empty() || !visible_ || visible_->count() == 0) return {};
+    return TreeShape(plan_.tree, static_cast<int>(visible_->count()));
 }
 
 std::unique_ptr<ProjectRenderer> make_project_renderer(const SceneMesh& mesh,

@@ -6,7 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "compositing/tree_shape.h"
 #include "plan/plan.h"
+#include "projection/tet_projector.h"
 #include "projection/visible_cell_fragments.h"
 #include "scene/scene.h"
 #include "visibility/visibility_order.h"
@@ -42,18 +44,22 @@ class ProjectRenderer : public FrameRenderer {
   protected:
     ProjectRenderer(const ProjectRenderer&) = delete;
     ProjectRenderer& operator=(const ProjectRenderer&) = delete;
-    // Uses the order `ready` if it is not null and has the plan's method, or else makes one.
+    // Uses the order `ready` if it is not null and has the plan's method, or else makes one. Finds
+    // gradients and cell fragments if the plan needs them.
     ProjectRenderer(const SceneMesh& mesh, const TransferFunction& transfer_function,
                     const ProjectPlan& plan, std::shared_ptr<VisibilityOrder> ready);
-    void find_visible_cell_fragments();
     bool is_fan() const { return plan_.geometry == ProjectGeometry::triangles; }
+    // Returns the shape of the plan's tree, or nothing if there is none. Its samples are the mesh's
+    // cell fragments, whose number does not depend on the view.
+    std::optional<TreeShape> tree_shape() const;
 
     const SceneMesh& mesh_;
     TransferFunction transfer_function_;  // in the plan's units
     ProjectPlan plan_;
     TetPieces pieces_;
     std::shared_ptr<VisibilityOrder> order_;
-    std::optional<VisibleCellFragments> visible_;  // none if nothing is visible
+    StoredGradients gradients_;                    // empty if nothing is lit
+    std::optional<VisibleCellFragments> visible_;  // none if nothing is visible or rays walk
     std::int64_t tets_drawn_ = 0;
     double table_ms_ = 0;                // time to build tables
     double order_ms_ = 0, draw_ms_ = 0;  // times in the last frame

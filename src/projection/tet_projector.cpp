@@ -43,8 +43,9 @@ constexpr float oblique = 1e-4f;
 //   X >= (-largest + r Y) / c   (c > 0: a least column),  or  X <= (-largest + r Y) / c   (c < 0)
 //
 // The lanes of a vector hold the four pairs of faces.
-TetOutline find_outline(const SilhouetteRecord& record, const PixelArea& area, int image_rows) {
-    constexpr float middle = 0.5f * (TileGrid::block - 1);  // from a block's first pixel centre
+TetOutline find_outline(const SilhouetteRecord& record, const PixelArea& area, int image_rows,
+                        int block) {
+    const float middle = 0.5f * static_cast<float>(block - 1);  // from a block's first pixel centre
     const SeenTet& seen = record.seen();
     const float columns = static_cast<float>(area.last_column - area.first_column),
                 rows = static_cast<float>(area.last_row - area.first_row);
@@ -443,8 +444,9 @@ TetGeometry::Written SilhouetteGeometry::write(const CellFragment& cell_fragment
     return written;
 }
 
-TetOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows) {
-    return LAMINA_LEAST(find_outline)(record, area, image_rows);
+TetOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows,
+                      int block) {
+    return LAMINA_LEAST(find_outline)(record, area, image_rows, block);
 }
 
 }  // namespace lamina

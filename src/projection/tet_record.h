@@ -132,7 +132,7 @@ inline constexpr double float_tolerance = 2e-3;
 // A depth beyond everything. Its product with any window coordinate is still finite.
 inline constexpr double beyond_all = -double{FragmentRecord::in_front_of_all};
 
-// The blocks of TileGrid::block x TileGrid::block pixels that a tet may cover. Rays meet the tet if
+// The blocks of pixels, all of one size, that a tet may cover. Rays meet the tet if
 // the depths on all its front faces are less than those on all its back faces: inside three or four
 // lines, the silhouette, on which a front and a back depth are equal. Each line bounds the column
 // of a block's first pixel, relative to the area's first column: by `at_first` for blocks that
@@ -161,7 +161,9 @@ struct alignas(64) CoveredArea : PixelArea {
     TetOutline outline = {};
 };
 
-// Returns the outline of a tet with 1 to 3 front faces whose depths are found in float32.
-TetOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows);
+// Returns the outline of a tet with 1 to 3 front faces whose depths are found in float32. `block`:
+// the pixels along a block's side.
+TetOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows,
+                      int block = TileGrid::block);
 
 }  // namespace lamina

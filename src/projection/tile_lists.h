@@ -15,7 +15,8 @@
 namespace lamina {
 
 // Lists, for each tile of a picture that some items cover, these items in their order. A workgroup
-// of a compute shader draws a tile (shaders/gl/tile.glsl).
+// of a compute shader draws a tile (shaders/gl/tile.glsl). Entry: what is listed of an item.
+template <typename Entry>
 struct TileLists {
     static constexpr int size = 8;  // pixels along a side
 
@@ -24,7 +25,7 @@ struct TileLists {
         std::uint32_t first, end;   // range of `entries`
     };
     std::vector<Tile> tiles;
-    std::vector<std::uint32_t> entries;
+    std::vector<Entry> entries;
 
     // Returns the number of tiles along an edge of so many pixels.
     static std::size_t count(int pixels) {
@@ -60,9 +61,9 @@ struct TileLists {
 
     // `areas`: the pixels inside the picture that each item may cover; may be empty. Their
     // entries must be fewer than 2^32, which callers see to by count() or fitting().
-    // `entry(item, column, row)`: what is listed of an item for the tile of this upper left pixel.
-    template <typename Entry>
-    void list(std::span<const PixelArea> areas, int width, int height, const Entry& entry) {
+    // `entry(item, column, row)`: the entry of an item for the tile of this upper left pixel.
+    template <typename MakeEntry>
+    void list(std::span<const PixelArea> areas, int width, int height, const MakeEntry& entry) {
         assert(count(areas) <= std::numeric_limits<std::uint32_t>::max());
         const std::size_t columns = count(width);
         const auto for_each_tile = [&](const auto& visit) {

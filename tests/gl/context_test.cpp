@@ -41,6 +41,12 @@ TEST_P(AnyContext, DescribesItself) {
     if (GetParam() == ContextKind::osmesa) {
         EXPECT_TRUE(capabilities().software);
     }
+    const std::uint64_t usual = Capabilities{}.max_texture_bytes;
+    if (capabilities().software) {
+        EXPECT_EQ(capabilities().max_texture_bytes, usual);
+    } else {
+        EXPECT_GE(capabilities().max_texture_bytes, usual);
+    }
 }
 
 TEST_P(AnyContext, HasNoErrorToBeginWith) {

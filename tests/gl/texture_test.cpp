@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,58 +19,33 @@ namespace {
 using TextureTest = EveryContextTest;
 INSTANTIATE_TEST_SUITE_P(Contexts, TextureTest, both_contexts, context_name);
 
-// A grid of texels in host memory, out of which boxes are cut. Every component of every texel has a
-// different value.
-template <typename T>
-struct Source {
-    int width, height, depth, channels;
-    std::vector<T> components;
-
-    Source(int w, int h, int d, int c)
-        : width(w),
-          height(h),
-          depth(d),
-          channels(c),
-          components(static_cast<std::size_t>(w * h * d * c)) {
-        for (std::size_t i = 0; i < components.size(); ++i) components[i] = static_cast<T>(i + 1);
-    }
-    std::size_t index(int x, int y, int z) const {
-        return static_cast<std::size_t>(((z * height + y) * width + x) * channels);
-    }
-    std::span<const T> from(int x, int y, int z) const {
-        return std::span<const T>(components).subspan(index(x, y, z));
-    }
-};
-
-// Fills the texture with zeros, uploads the box at (1, 2, 1) of a Source, with the Source's
-// strides, to the box at (2, 1, 1) of the texture, and compares every texel. `scale`: the value as
-// which a component of 1 is read. Drivers may divide by 255 or 65535 with a rounded reciprocal, a
-// relative error of 2^-23.
+// Fills the texture with zeros, uploads different values to the components of a box inside it, and
+// compares every texel. `scale`: the value as which a component of 1 is read. Drivers may divide by
+// 255 or 65535 with a rounded reciprocal, a relative error of 2^-23.
 template <typename T>
 void expect_sub_box(Texture texture, int channels, double scale) {
-    const TexelBox box{2, 1, 1, 3, texture.height() > 1 ? 2 : 1, texture.depth() > 1 ? 2 : 1};
-    TexelBox target = box;
-    if (texture.height() == 1) target.y = 0;
-    if (texture.depth() == 1) target.z = 0;
+    const TexelBox box{2, texture.height() > 1 ? 1 : 0, texture.depth() > 1 ? 1 : 0,
+                       3, texture.height() > 1 ? 2 : 1, texture.depth() > 1 ? 2 : 1};
     const std::vector<T> zeros(
         static_cast<std::size_t>(texture.width() * texture.height() * texture.depth() * channels));
     texture.upload({.width = texture.width(), .height = texture.height(), .depth = texture.depth()},
                    std::span<const T>(zeros));
-    const Source<T> source(5, 4, 3, channels);
-    texture.upload(target, source.from(1, 2, 1), {source.width, source.height});
+    std::vector<T> components(
+        static_cast<std::size_t>(box.width * box.height * box.depth * channels));
+    std::iota(components.begin(), components.end(), T{1});
+    texture.upload(box, std::span<const T>(components));
 
     const std::vector<float> read = texture.read_rgba();
-    std::size_t texel = 0;
+    std::size_t texel = 0, component = 0;
     for (int z = 0; z < texture.depth(); ++z) {
         for (int y = 0; y < texture.height(); ++y) {
             for (int x = 0; x < texture.width(); ++x, ++texel) {
-                const int u = x - target.x, v = y - target.y, w = z - target.z;
-                const bool inside = u >= 0 && u < target.width && v >= 0 && v < target.height &&
-                                    w >= 0 && w < target.depth;
-                for (int c = 0; c < channels; ++c) {
-                    const std::size_t at = inside ? source.index(1 + u, 2 + v, 1 + w) : 0;
+                const int u = x - box.x, v = y - box.y, w = z - box.z;
+                const bool inside =
+                    u >= 0 && u < box.width && v >= 0 && v < box.height && w >= 0 && w < box.depth;
+                for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
                     const double expected =
-                        inside ? static_cast<double>(source.components[at + c]) * scale : 0.0;
+                        inside ? static_cast<double>(components[component++]) * scale : 0.0;
                     EXPECT_NEAR(read[4 * texel + c], expected, 1.2e-7 * expected)
                         << "texel " << x << ", " << y << ", " << z << ", channel " << c;
                 }

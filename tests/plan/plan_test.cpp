@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "plan/planners.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
 
@@ -106,6 +107,31 @@ TEST(Plan, ExceededLimitsOfTheContextAreNamed) {
     capabilities.max_texture_bytes = 16 * 100;
     expect_error([&] { plan_of(minimal_scene(), capabilities); },
                  {"32 x 24", "at most 100", "test"});
+}
+
+// 1500^3 samples of 16 bits are 6.75e9 bytes: 7 textures of 1 GiB or more, or one with 32 GiB.
+TEST(Plan, VolumesAreOneTextureWhereTheContextHoldsIt) {
+    Grid grid;
+    grid.size = {1500, 1500, 1500};
+    const auto bricks = [&](const Capabilities& capabilities) {
+        return cut_into_bricks(grid, false, 2, capabilities).size();
+    };
+    EXPECT_GE(bricks(usual_opengl()), 7u);
+    Capabilities gpu = usual_opengl();
+    gpu.max_texture_bytes = max_texture_bytes_of(std::uint64_t{32} << 30);
+    EXPECT_EQ(bricks(gpu), 1u);
+    gpu.max_texture_bytes = max_texture_bytes_of(std::uint64_t{16} << 30);
+    EXPECT_EQ(bricks(gpu), 2u);
+    gpu.max_texture_bytes = max_texture_bytes_of(std::uint64_t{32} << 30);
+    gpu.max_3d_texture_size = 1499;
+    EXPECT_EQ(bricks(gpu), 8u);
+}
+
+TEST(Plan, TexturesHaveAtLeastOneGibibyte) {
+    const std::uint64_t gibibyte = std::uint64_t{1} << 30;
+    EXPECT_EQ(max_texture_bytes_of(0), gibibyte);
+    EXPECT_EQ(max_texture_bytes_of(gibibyte), gibibyte);
+    EXPECT_EQ(max_texture_bytes_of(80 * gibibyte), 20 * gibibyte);
 }
 
 TEST(Plan, RaysAreDoubleInSoftwareAndForThinBoxes) {

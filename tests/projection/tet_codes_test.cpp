@@ -3,6 +3,8 @@
 // compare their pictures with those of the cpu engine.
 #include "projection/gl_tet_codes.h"
 
+#include <cmath>
+
 #include "base/error.h"
 #include "projection/tile_lists.h"
 #include "projection_fixture.h"
@@ -11,32 +13,104 @@
 namespace lamina {
 namespace {
 
+using Lists = TileLists<std::uint32_t>;
+
 // Areas of 6, 0, 1 and 4 tiles.
 const std::vector<PixelArea> some_areas{
     {7, 16, 8, 23}, {0, -1, 0, -1}, {8, 15, 0, 7}, {3, 8, 7, 8}};
 
 TEST(TileLists, CountTheEntriesThatTheyList) {
-    TileLists lists;
+    Lists lists;
     lists.list(some_areas, 24, 24,
                [](std::size_t item, int, int) { return static_cast<std::uint32_t>(item); });
     EXPECT_EQ(lists.entries.size(), 6 + 0 + 1 + 4);
-    EXPECT_EQ(TileLists::count(some_areas), lists.entries.size());
+    EXPECT_EQ(Lists::count(some_areas), lists.entries.size());
 }
 
 TEST(TileLists, CountBeyond32Bits) {
     // 2^20 tiles each, 2^13 times.
     const std::vector<PixelArea> areas(1 << 13, PixelArea{0, 8191, 0, 8191});
-    EXPECT_EQ(TileLists::count(areas), std::size_t{1} << 33);
-    EXPECT_EQ(TileLists::fitting(areas, GlTetCodes::most_entries), 16);
+    EXPECT_EQ(Lists::count(areas), std::size_t{1} << 33);
+    EXPECT_EQ(Lists::fitting(areas, GlTetCodes::most_entries), 4);
 }
 
 TEST(TileLists, FitIntoTheBoundButForOneItem) {
     const std::span<const PixelArea> areas(some_areas);
-    EXPECT_EQ(TileLists::fitting(areas, 11), 4);
-    EXPECT_EQ(TileLists::fitting(areas, 10), 3);
-    EXPECT_EQ(TileLists::fitting(areas, 6), 2);
-    EXPECT_EQ(TileLists::fitting(areas, 5), 1);
-    EXPECT_EQ(TileLists::fitting(areas.first(0), 5), 0);
+    EXPECT_EQ(Lists::fitting(areas, 11), 4);
+    EXPECT_EQ(Lists::fitting(areas, 10), 3);
+    EXPECT_EQ(Lists::fitting(areas, 6), 2);
+    EXPECT_EQ(Lists::fitting(areas, 5), 1);
+    EXPECT_EQ(Lists::fitting(areas.first(0), 5), 0);
+}
+
+// Tells whether a pixel's ray meets a tet, as shaders/projection/silhouette.glsl finds it.
+bool meets(const SilhouetteRecord& record, double column, double row_from_bottom) {
+    const SeenTet& seen = record.seen();
+    const double x = column - seen.center[0], y = row_from_bottom - seen.center[1];
+    double enter = -INFINITY, leave = INFINITY;
+    for (std::size_t face = 0; face < 4; ++face) {
+        const auto number = [&](const SeenTet::Pairs& pairs) {
+            return double{pairs.high[face]} + double{pairs.low[face]};
+        };
+        const double depth =
+            number(seen.depth) + x * number(seen.depth_per_column) + y * number(seen.depth_per_row);
+        if (face < record.front_faces())
+            enter = std::max(enter, depth);
+        else
+            leave = std::min(leave, depth);
+    }
+    return leave > enter;
+}
+
+TEST(TilePixels, AreTheOnesWhoseRaysMeetTheTet) {
+    constexpr int width = 61, height = 45, size = Lists::size;
+    const SceneMesh mesh = scene_mesh(test::kuhn_box({3, 3, 3}, ripples));
+    const TetPieces pieces(
+        TransferFunction::linear({knot(0, {1, 0, 0}, .1), knot(1, {0, 0, 1}, 1)}), {0, 1});
+    Camera camera;
+    camera.eye = {6, -3, 7};
+    camera.center = {1.5, 1.5, 1.5};
+    camera.fov_y = 30;
+    constexpr double margin = 1e-3;
+    const TetProjector projector({mesh.mesh,
+                                  mesh.scalar.values,
+                                  {0, 1},
+                                  pieces,
+                                  WindowView(View(camera, width, height)),
+                                  1e-3,
+                                  margin,
+                                  {}});
+    int met = 0, listed = 0;
+    for (std::int32_t tet = 0; tet < std::ssize(mesh.mesh.tets()); ++tet) {
+        SilhouetteRecord record;
+        ScreenOutline outline;
+        const auto kind = projector.project({tet}, record, outline, nullptr);
+        if (!kind || *kind == FragmentKind::careful) continue;
+        const PixelBounds bounds = pixel_bounds(outline.points(), margin, width, height);
+        const PixelArea area{bounds.first_column, bounds.last_column, height - 1 - bounds.last_row,
+                             height - 1 - bounds.first_row};
+        const TetOutline lines = outline_of(record, area, height, 1);
+        for (int row = 0; row < height; ++row) {
+            for (int column = 0; column < width; ++column) {
+                const TilePixelBits pixels =
+                    pixels_in_tile(area, lines, column / size * size, row / size * size);
+                const bool is_listed = (pixels >> (size * (row % size) + column % size) & 1) != 0;
+                const bool is_met = meets(record, column + .5, height - row - .5);
+                EXPECT_TRUE(is_listed || !is_met) << tet << ": " << column << ", " << row;
+                met += is_met ? 1 : 0;
+                listed += is_listed ? 1 : 0;
+            }
+        }
+    }
+    // Outlines are enlarged by about 1e-3 pixel, so that few more are listed.
+    EXPECT_GT(met, 5000);
+    EXPECT_LT(listed, 1.01 * met);
+}
+
+TEST(TilePixels, AreThoseOfTheAreaWithoutOutline) {
+    const PixelArea area{3, 12, 9, 9};
+    EXPECT_EQ(pixels_in_tile(area, {}, 0, 8), TilePixelBits{0b11111000} << 8);
+    EXPECT_EQ(pixels_in_tile(area, {}, 8, 8), TilePixelBits{0b00011111} << 8);
 }
 
 TEST(TetCodesDispatch, KeepsTheRoundsOfSoftware) {
