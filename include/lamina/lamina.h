@@ -7,6 +7,7 @@
 #include "lamina/color.h"
 #include "lamina/error.h"
 #include "lamina/image.h"
+#include "lamina/info.h"
 #include "lamina/mesh.h"
 #include "lamina/report.h"
 #include "lamina/sampling.h"

@@ -14,7 +14,7 @@ A notebook shows ``picture``; ``picture.array`` has its numbers, ``picture.save(
     >>> picture.compare(truth).linf < 1     # the largest error, in 1/255: max_error was 1
     True
 
-Data: ``Volume``, ``Mesh``, ``read``, ``mesh``, ``Sampler`` (values and gradients at points).
+Data: ``Volume``, ``Mesh``, ``read``, ``info``, ``mesh``, ``Sampler`` (values and gradients at points).
 Looks: ``TransferFunction``, ``Camera``, ``Lighting``, ``Light``; everything else by the names that scene files have
 (``Scene``; types: ``Keywords``, ``Changes``, ``lamina.keywords``).
 Pictures: ``render``, ``trace``, ``Session`` (to change things and draw again), ``Picture``, ``Turntable``.
@@ -36,7 +36,7 @@ from .keywords import Changes, Keywords
 from ._lighting import Light, Lighting
 from ._mesh import Mesh, mesh
 from ._picture import Omission, Picture, Plan
-from ._reading import read
+from ._reading import info, read
 from ._sampling import Sampler
 from ._scene import Scene
 from ._session import Session
@@ -50,7 +50,7 @@ colormaps = ("cividis", "cool-warm", "ct-angio", "ct-bone", "ct-lung", "ct-soft-
 __all__ = [
     "Camera", "Changes", "Comparison", "Error", "Keywords", "Light", "Lighting", "Mesh", "Norms", "Omission",
     "Picture", "PictureWarning", "Plan", "PrecisionWarning", "Sampler", "Scene", "Session", "Study", "TransferFunction",
-    "Turntable", "Volume", "colormaps", "compare", "mesh", "read", "render", "study", "trace",
+    "Turntable", "Volume", "colormaps", "compare", "info", "mesh", "read", "render", "study", "trace",
 ]
 
 for _name in __all__:

@@ -13,6 +13,11 @@ from ._plain import plain
 from ._volume import Path, Volume, folder_name
 
 
+def _scene_of(file: pathlib.Path, kind: str, selection: dict[str, Any]) -> str:
+    """The text of a scene that names a part of a file."""
+    return json.dumps({"version": 1, kind: {"path": str(file), **plain(selection)}})
+
+
 def read(file: Path, *, only_below: Path | None = None, **selection: Any) -> Volume | Mesh:
     """The volume or the tetrahedral mesh in a file, of every kind that ``lamina render`` draws, known by its content.
 
@@ -41,3 +46,25 @@ def read(file: Path, *, only_below: Path | None = None, **selection: Any) -> Vol
             warn(text, PictureWarning)
         return Volume._of(core, absolute, source)
     return Mesh._of(_lamina.Mesh.load(path, folder), absolute)
+
+
+def info(file: Path, *, only_below: Path | None = None, **selection: Any) -> dict[str, Any]:
+    """What a file has, as ``lamina info --json`` says it: docs/info.md explains every key.
+
+    ``arrays``, ``channels``, ``times``, ``levels`` and ``labels`` list, with their names, what there is to choose from;
+    ``size``, ``type``, ``range``, ``spacing``, ``origin``, ``unit`` and others describe the part that ``selection``
+    chooses. ``only_below`` and ``selection`` are those of ``lamina.read``; of a mesh's file there is ``time``.
+
+    >>> np.save("two.npy", np.zeros((2, 3, 4, 5), np.int16))
+    >>> lamina.info("two.npy", channel=1)["channels"]
+    ['', '']
+    """
+    path, folder = pathlib.Path(file), folder_name(only_below)
+    is_raw = "size" in selection or "type" in selection
+    kind = "volume" if is_raw or not selection else _lamina.kind_of_file(path, folder)
+    scene = _scene_of(path.absolute(), kind, selection) if selection else ""
+    text, warnings = _lamina.describe_file(path.absolute(), scene, folder)
+    for warning in warnings:
+        warn(warning, PictureWarning)
+    described: dict[str, Any] = json.loads(text)
+    return described

@@ -122,6 +122,22 @@ std::vector<std::tuple<int, std::string, std::string>> labels_of(const Volume& v
 void bind_volume(py::module_& module) {
     module.attr("sample_parts") = sample_parts;
     module.def(
+        "describe_file",
+        [](const std::filesystem::path& file, const std::string& scene,
+           const std::string& only_below) {
+            VolumeRequest request;
+            if (!scene.empty()) {
+                const Scene read = parse_scene(scene, "lamina.info", only_below);
+                if (read.volume_file() != nullptr) request = read.volume_file()->selection;
+                if (read.mesh_file() != nullptr) request.time = read.mesh_file()->time;
+            }
+            std::vector<std::string> warnings;
+            std::string text = describe_file(file, request, only_below, &warnings);
+            return std::pair(std::move(text), std::move(warnings));
+        },
+        py::arg("file"), py::arg("scene"), py::arg("only_below"),
+        py::call_guard<py::gil_scoped_release>());
+    module.def(
         "hash_of_part",
         [](const py::array& array, std::size_t part) {
             const auto* const samples = static_cast<const char*>(array.data());

@@ -3,11 +3,14 @@
 
 #include "base/client.h"
 #include "base/error.h"
+#include "base/json_text.h"
 #include "base/output_file.h"
+#include "lamina/info.h"
 #include "lamina/mesh.h"
 #include "lamina/volume.h"
 #include "mesh_files/mesh_file.h"
 #include "meshing/volume_mesh.h"
+#include "render/file_report.h"
 #include "volume/nrrd_writer.h"
 #include "volume_files/stored_samples.h"
 #include "volume_files/volume_file.h"
@@ -30,6 +33,15 @@ Volume load_volume(const std::filesystem::path& file, const VolumeRequest& reque
     std::vector<std::string> said;
     return keep_warnings(warnings == nullptr ? said : *warnings,
                          [&] { return read_volume(file, request); });
+}
+
+std::string describe_file(const std::filesystem::path& file, const VolumeRequest& request,
+                          const std::filesystem::path& only_below,
+                          std::vector<std::string>* warnings) {
+    const OnlyBelowScope scope(only_below);
+    std::vector<std::string> said;
+    return keep_warnings(warnings == nullptr ? said : *warnings,
+                         [&] { return json_text(file_report(file.string(), request)); });
 }
 
 Volume label_volume(const Grid& grid, const std::string& type, std::shared_ptr<const void> samples,

@@ -53,6 +53,9 @@ struct ForeignMesh {
     const char* advice;
 };
 constexpr const char *convert = "convert it to .vtu (ParaView: File, Save Data; or meshio convert)",
+                     *as_pvd =
+                         "name one of the files, or make a .pvd of them (ParaView: File, Save "
+                         "Data, with all time steps)",
                      *one_block =
                          "save its unstructured grid as .vtu (in ParaView after Merge "
                          "Blocks), or name the .vtu files of its blocks in a .pvtu",
@@ -95,7 +98,13 @@ void expect_no_foreign_mesh(const Path& path) {
         {{}, nullptr, "CGNS mesh", {".cgns"}, convert},
         {{}, nullptr, "MED mesh", {".med"}, convert},
         {{}, nullptr, "EnSight case", {".case", ".encas"}, convert},
-        {{}, nullptr, "OpenFOAM case", {".foam"}, convert}};
+        {{}, nullptr, "OpenFOAM case", {".foam"}, convert},
+        {{}, nullptr, "Tecplot data set", {".plt", ".szplt", ".tec"}, convert},
+        {{}, nullptr, "Abaqus mesh", {".inp"}, convert},
+        {{}, nullptr, "Nastran mesh", {".bdf", ".nas"}, convert},
+        {{}, nullptr, "I-deas mesh", {".unv"}, convert},
+        {{}, nullptr, "Medit mesh", {".mesh", ".meshb"}, convert},
+        {{}, nullptr, "list of files in time (ParaView)", {".series"}, as_pvd}};
     expect_allowed(path);
     std::error_code unreadable;  // such a file fails when it is read
     if (!std::filesystem::is_regular_file(path, unreadable)) return;
@@ -111,7 +120,10 @@ void expect_no_foreign_mesh(const Path& path) {
         const bool typed = !type.empty() && std::ranges::count(kind.types, type) > 0;
         const bool named = type.empty() && std::ranges::count(kind.extensions, extension) > 0;
         if (!marked && !typed && !named) continue;
-        fail("{}: found a {}, which is not read: {}", path.string(), kind.name, kind.advice);
+        const bool has_vowel =
+            std::string_view("AEIOUX").find(kind.name[0]) != std::string_view::npos;
+        fail("{}: found {} {}, which is not read: {}", path.string(), has_vowel ? "an" : "a",
+             kind.name, kind.advice);
     }
 }
 

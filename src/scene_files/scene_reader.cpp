@@ -34,7 +34,7 @@ FileKind kind_of_file(const std::filesystem::path& file, const std::filesystem::
     if (scene) return FileKind::scene;
     fail(
         "{}: unknown kind of file: expected a scene (JSON), a volume ({}) or a mesh (.vtu, .pvtu, "
-        ".pvd, .vtk, .node, .ele)",
+        ".pvd, .vtk, .node, .ele), or raw samples with their size and type (--raw)",
         file.string(), volume_format_names());
 }
 

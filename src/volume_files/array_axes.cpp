@@ -282,30 +282,58 @@ std::string place_axis(const DescribedArray& array, Grid& grid, int i, int axis,
     return step && found.unit.empty() ? array.unit : found.unit;
 }
 
-// Brings all axes to the unit of x, or of the first axis that has one.
-void unite(const std::string& name, Grid& grid, const std::array<std::string, 3>& units) {
-    for (const std::string& unit : units)
-        if (grid.unit.empty()) grid.unit = unit;
-    std::array<std::string, 3> words = units;
-    std::ranges::replace(words, std::string(), std::string("none"));
-    bool differ = false;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double from = metres_of(units[i]), to = metres_of(grid.unit);
-        const bool are_degrees = units[i].starts_with("degree") && grid.unit.starts_with("degree");
-        if (units[i] == grid.unit || units[i].empty() || are_degrees) continue;
-        if (from == 0 || to == 0) {
-            differ |= grid.size[i] > 1;
-            continue;
-        }
-        grid.step[i] *= from / to;
-        grid.origin[static_cast<int>(i)] *= from / to;
+// An attribute that says lengths, as a program spells it.
+struct LengthKey {
+    const char* key;
+    const char* unit;  // "": an attribute beside it may say it
+};
+constexpr LengthKey step_keys[] = {
+    {"element_size_um", "um"}, {"voxel_size_um", "um"}, {"voxel_size_nm", "nm"},
+    {"voxel_size_mm", "mm"},   {"pixel_size_um", "um"}, {"resolution", ""},
+    {"voxel_size", ""},        {"voxelSize", ""},       {"VoxelSize", ""},
+    {"voxelsize", ""},         {"spacing", ""},         {"Spacing", ""},
+    {"pixelSize", ""},         {"PixelSize", ""},       {"pixel_size", ""},
+    {"element_size", ""},      {"pixelResolution", ""}, {"gridSpacing", ""}};
+constexpr LengthKey place_keys[] = {{"origin", ""}, {"Origin", ""},      {"offset", ""},
+                                    {"Offset", ""}, {"translation", ""}, {"gridGlobalOffset", ""}};
+
+// Returns the numbers of an attribute, if they fit the array's axes, and says how they are taken.
+std::vector<double> usable_numbers(const DescribedArray& array, const ArrayAttributes& attributes,
+                                   const char* key, bool are_steps) {
+    std::vector<double> numbers = attributes.numbers(key);
+    const std::size_t count = numbers.size();
+    // A group's single number may mean anything.
+    if (count == 0 || (count == 1 && !(are_steps && attributes.is_own))) return {};
+    const bool good = std::ranges::all_of(numbers, [&](double number) {
+        return std::isfinite(number) && (number != 0 || !are_steps);
+    });
+    if (!good || (count != 1 && count != 3 && count != array.axes.size())) {
+        warn(fmt::format("{}: {}: found {}, expected a number for each axis: it is not used",
+                         array.name, key, fmt::join(numbers, ", ")));
+        return {};
     }
-    if (differ) {
-        warn(
-            fmt::format("{}: the axes x, y and z have the units {}: their numbers are taken as "
-                        "they are, \"spacing\" in the volume gives others",
-                        name, fmt::join(words, ", ")));
+    constexpr std::string_view defined[] = {"element_size_um", "gridSpacing", "gridGlobalOffset"};
+    const bool differ =
+        std::ranges::adjacent_find(numbers, std::ranges::not_equal_to()) != numbers.end();
+    if (differ && std::ranges::find(defined, std::string_view(key)) == std::end(defined)) {
+        warn(fmt::format("{}: {} ({}) is taken in the order of the array's axes", array.name, key,
+                         fmt::join(numbers, ", ")));
     }
+    return numbers;
+}
+
+// Takes openPMD's lengths in the unit that its gridUnitSI is, or in metres.
+void take_grid_unit(DescribedArray& array, const ArrayAttributes& attributes) {
+    const std::vector<double> metres = attributes.numbers("gridUnitSI");
+    if (metres.size() != 1 || !(metres[0] > 0)) return;
+    array.unit = "m";
+    for (const char* const unit : {"mm", "um", "nm"}) {
+        if (metres_of(unit) != metres[0]) continue;
+        array.unit = unit;
+        return;
+    }
+    for (double& step : array.steps) step *= metres[0];
+    for (double& first : array.firsts) first *= metres[0];
 }
 
 }  // namespace
@@ -336,6 +364,22 @@ void add_attributes(ArrayAxis& axis, const std::function<std::string(const char*
     if (axis.unit.empty()) axis.unit = text("units");
 }
 
+void add_lengths(DescribedArray& array, const ArrayAttributes& attributes) {
+    const char* found = "";
+    for (const auto& [key, unit] : step_keys) {
+        if (!array.steps.empty()) break;
+        array.steps = usable_numbers(array, attributes, key, true);
+        if (array.steps.empty()) continue;
+        found = key;
+        array.unit = unit;
+        for (const char* const word : {"_unit", "_units", "Unit", "Units"})
+            if (array.unit.empty()) array.unit = attributes.text(std::string(key) + word);
+    }
+    for (const auto& [key, unit] : place_keys)
+        if (array.firsts.empty()) array.firsts = usable_numbers(array, attributes, key, false);
+    if (std::string_view(found) == "gridSpacing") take_grid_unit(array, attributes);
+}
+
 ArrayPlace place_array(const DescribedArray& array, const VolumeRequest& request,
                        VolumeContents& contents) {
     const RoleFinder roles(array, request);
@@ -361,7 +405,7 @@ ArrayPlace place_array(const DescribedArray& array, const VolumeRequest& request
                 array.name, shortened(one_line(array.coordinates)), "xyz"[i]));
         }
     }
-    unite(array.name, place.grid, units);
+    unite_units(array.name, place.grid, units);
     if (roles.is_named) place.grid.axes = WorldAxes::named;
     check_grid(array.name, place.grid, {"coordinates", "coordinates"});
 

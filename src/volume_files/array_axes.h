@@ -37,6 +37,21 @@ struct DescribedArray {
 // `text` returns an attribute, or nothing.
 void add_attributes(ArrayAxis& axis, const std::function<std::string(const char* key)>& text);
 
+// Attributes that name the axes of an array, in its order.
+constexpr const char* axis_name_keys[] = {"_ARRAY_DIMENSIONS", "axes", "axis_names", "axisLabels",
+                                          "axis_labels",       "dims", "dimorder"};
+
+// The attributes of an array, or of a group that it is in; each returns nothing if there is none.
+struct ArrayAttributes {
+    std::function<std::vector<double>(const std::string& key)> numbers;
+    std::function<std::string(const std::string& key)> text;
+    bool is_own;  // the array's
+};
+
+// Adds the distances and places that attributes give under the names that common programs use,
+// unless the array has some already. Says how they are taken.
+void add_lengths(DescribedArray& array, const ArrayAttributes& attributes);
+
 // Tells how a volume lies in an array.
 struct ArrayPlace {
     std::array<int, 3> axes{-1, -1, -1};  // the array's axes along x, y and z; -1: none, one sample

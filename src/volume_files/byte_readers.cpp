@@ -6,6 +6,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <new>
@@ -219,6 +220,48 @@ class Bzip2Reader final : public PackedReader {
     bz_stream state_{};
 };
 
+class HexReader final : public ByteReader {
+  public:
+    HexReader(OpenedFile file, std::string name) : file_(std::move(file)), name_(std::move(name)) {}
+
+    void read(void* bytes, std::size_t count) override {
+        auto* const to = static_cast<unsigned char*>(bytes);
+        for (std::size_t done = 0; done < count; ++done) {
+            if (done % step_bytes == 0) check_interrupt();
+            const int high = digit(), low = digit();
+            if (low < 0) fail("{}: found {} bytes of hex data, expected {}", name_, done, count);
+            to[done] = static_cast<unsigned char>(16 * high + low);
+        }
+    }
+
+    void skip(std::size_t count) override {
+        unsigned char byte = 0;
+        for (std::size_t done = 0; done < count; ++done) read(&byte, 1);
+    }
+
+    std::vector<std::string> surplus() override {
+        std::uint64_t digits = 0;
+        while (digits < 2 * most_counted_surplus && digit() >= 0) ++digits;
+        if (digits == 0) return {};
+        return {fmt::format("{} bytes of hex data more", (digits + 1) / 2)};
+    }
+
+  private:
+    // Returns the value of the next digit; -1 at the end of the file.
+    int digit() {
+        int letter = std::fgetc(file_.get());
+        while (std::isspace(letter) != 0) letter = std::fgetc(file_.get());
+        if (letter == EOF) return -1;
+        if (std::isxdigit(letter) == 0)
+            fail("{}: damaged hex data: found byte {}, expected a digit from 0 to f", name_,
+                 letter);
+        return letter <= '9' ? letter - '0' : std::tolower(letter) - 'a' + 10;
+    }
+
+    OpenedFile file_;
+    std::string name_;
+};
+
 class SequenceReader final : public ByteReader {
   public:
     using Paths = std::vector<std::filesystem::path>;
@@ -299,6 +342,10 @@ std::unique_ptr<ByteReader> gzip_reader(OpenedFile file, std::string name) {
 
 std::unique_ptr<ByteReader> bzip2_reader(OpenedFile file, std::string name) {
     return std::make_unique<Bzip2Reader>(std::move(file), std::move(name));
+}
+
+std::unique_ptr<ByteReader> hex_reader(OpenedFile file, std::string name) {
+    return std::make_unique<HexReader>(std::move(file), std::move(name));
 }
 
 std::unique_ptr<ByteReader> sequence_reader(

@@ -48,6 +48,9 @@ std::unique_ptr<ByteReader> gzip_reader(OpenedFile file, std::string name);
 // Decompresses bzip2 streams likewise. (teem 1.12 does not notice that the end is missing.)
 std::unique_ptr<ByteReader> bzip2_reader(OpenedFile file, std::string name);
 
+// Reads pairs of hexadecimal digits, with blanks between them that do not count.
+std::unique_ptr<ByteReader> hex_reader(OpenedFile file, std::string name);
+
 // Most bytes that one compressed byte decompresses to. Deflate codes at most 258 bytes in 2 bits
 // (zlib, "Technical details"); bzip2 codes a block of 900,000 bytes, in which each 5 stand for a
 // run of 259, in no less than 40 bytes.

@@ -240,9 +240,14 @@ class ElementReader {
             explicit_ = false;
         } else if (syntax == "1.2.840.10008.1.2.2") {
             big_endian_ = elements_.big_endian = true;
-        } else if (syntax == "1.2.840.10008.1.2.1.99" || !syntax.starts_with("1.2.840.10008.1.2")) {
-            fail("{}: transfer syntax: found '{}', expected one of images that is not deflated",
-                 name_, one_line(syntax));
+        } else if (syntax == "1.2.840.10008.1.2.1.99") {
+            fail(
+                "{}: transfer syntax: found '{}' (deflated), expected one that is not: DCMTK's "
+                "dcmconv +te writes the file so",
+                name_, syntax);
+        } else if (!syntax.starts_with("1.2.840.10008.1.2")) {
+            fail("{}: transfer syntax: found '{}', expected one of DICOM images", name_,
+                 one_line(syntax));
         }
     }
 

@@ -69,6 +69,21 @@ double signed_if(const DicomElements& elements, double number) {
                                                                            : number;
 }
 
+// SOP classes of objects without pixels (PS3.6, Annex A), by the beginning of their UIDs.
+constexpr struct {
+    std::string_view begin;
+    const char *name, *advice;
+} kinds_without_pixels[] = {
+    {"1.2.840.10008.5.1.4.1.1.481.3", ", an RT structure set of contours",
+     ": 3D Slicer saves it as a segmentation (.seg.nrrd)"},
+    {"1.2.840.10008.5.1.4.1.1.481.", ", a radiotherapy plan or record", ""},
+    {"1.2.840.10008.5.1.4.1.1.88.", ", a structured report", ""},
+    {"1.2.840.10008.5.1.4.1.1.104.", ", a document", ""},
+    {"1.2.840.10008.5.1.4.1.1.11.", ", a presentation state", ""},
+    {"1.2.840.10008.5.1.4.1.1.9.", ", a waveform", ""},
+    {"1.2.840.10008.5.1.4.1.1.66.5", ", surfaces", ": 3D Slicer saves them as a segmentation"},
+    {"1.2.840.10008.5.1.4.1.1.66", ", a registration or raw data", ""}};
+
 // Returns why a file is no volume, by its SOP class (PS3.6, Annex A) or its colours; else nothing.
 std::string refusal_of(const DicomElements& elements) {
     const std::string kind = elements.text(dicom_tag::sop_class);
@@ -84,8 +99,12 @@ std::string refusal_of(const DicomElements& elements) {
     if (elements.text(dicom_tag::media_class) == "1.2.840.10008.1.3.10")
         return "found a DICOMDIR, a list of files, expected the folder that it lies in";
     if (elements.pixel_tag == 0) {
-        return fmt::format("found no pixels (SOPClassUID {}), expected an image",
-                           kind.empty() ? "is missing" : kind);
+        const auto known = std::ranges::find_if(
+            kinds_without_pixels, [&](const auto& one) { return kind.starts_with(one.begin); });
+        return fmt::format("found no pixels (SOPClassUID {}{}), expected an image{}",
+                           kind.empty() ? "is missing" : kind,
+                           known == std::end(kinds_without_pixels) ? "" : known->name,
+                           known == std::end(kinds_without_pixels) ? "" : known->advice);
     }
     const std::string colours = elements.text(dicom_tag::photometric);
     if (const auto samples = elements.whole(dicom_tag::samples_per_pixel); samples > 1) {

@@ -31,11 +31,17 @@ constexpr const char *bio_formats = "Fiji (Bio-Formats) saves it as OME-TIFF",
                      *numpy = "numpy.save writes arrays as .npy", *surface = "it has no volume",
                      *pictures = "save its pictures as PNG or TIFF, such as by ImageMagick",
                      *unpack = "unpack it first", *download = "download the data that it leads to",
+                     *points = "it has no volume; numpy.histogramdd counts points in voxels",
+                     *bigdataviewer = "name the .h5 or .zarr that it describes",
                      *dataset = "xarray or cdo write NetCDF of it",
-                     *as_raw = "it describes raw data, which --raw reads";
+                     *as_raw = "it describes raw data, which --raw reads",
+                     *with_size =
+                         "give their size and type (--raw, or the keys size and type of a volume)",
+                     *as_frames = "ffmpeg saves its frames as PNG (ffmpeg -i FILE f_%04d.png)";
 
 constexpr ForeignFormat formats_not_read[] = {
-    {"an MRC or CCP4 map", 208, "MAP ", " .mrc .ccp4 ", mrcfile},
+    {"an MRC or CCP4 map", 208, "MAP ", " .mrc .mrcs .ccp4 .st .ali .preali ", mrcfile},
+    {"an MRC or CCP4 map", 212, "DD\0\0"sv, "", mrcfile},
     {"an Amira or Avizo file", 0, "# AmiraMesh", "", "Amira and Avizo save it as NRRD"},
     {"an Amira or Avizo file", 0, "# Avizo", "", "Amira and Avizo save it as NRRD"},
     {"a Gatan Digital Micrograph file", 0, "", " .dm3 .dm4 ", bio_formats},
@@ -46,8 +52,13 @@ constexpr ForeignFormat formats_not_read[] = {
     {"an OLE container, as Olympus OIB, Zeiss ZVI and TXRM files are", 0,
      "\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "", bio_formats},
     {"a Bio-Rad or KLB file", 0, "", " .pic .klb ", bio_formats},
+    {"a DeltaVision file", 0, "", " .dv .r3d ", bio_formats},
+    {"an Image Cytometry Standard (ICS) file", 0, "\t\nics_version", " .ics .ids ", bio_formats},
+    {"a SlideBook file", 0, "", " .sld .sldy ", bio_formats},
+    {"the description of a BigDataViewer volume", 0, "<SpimData", "", bigdataviewer},
     {"a FITS file", 0, "SIMPLE  =", "", "astropy reads it, numpy.save writes .npy"},
-    {"an OpenVDB file", 0, " BDV", "", "pyopenvdb copies it to an array, numpy.save writes .npy"},
+    {"an OpenVDB file", 0, " BDV", " .nvdb ",
+     "pyopenvdb copies it to an array, numpy.save writes .npy"},
     {"a MATLAB file before version 7.3", 0, "MATLAB 5.0", "", "save(..., '-v7.3') writes HDF5"},
     {"an HDF4 file", 0, "\x0e\x03\x13\x01", "", "h4toh5 makes HDF5 of it"},
     {"a GRIB file", 0, "GRIB", " .grb .grib .grib2 ", dataset},
@@ -62,6 +73,7 @@ constexpr ForeignFormat formats_not_read[] = {
     {"a GIPL file", 0, "", " .gipl ", slicer},
     {"an ECAT file", 0, "MATRIX7", "", "nibabel makes NIfTI of it"},
     {"an OpenDX file", 0, "", " .dx ", "ParaView or VTK save it as .vti"},
+    {"an AVS field", 0, "# AVS", " .fld ", "ParaView saves it as .vti"},
     {"a Gaussian cube file", 0, "", " .cube .cub ", "ParaView saves it as .vti"},
     {"a SEG-Y file", 0, "", " .sgy .segy ", "segyio reads it, numpy.save writes .npy"},
     {"a description of raw data", 0, "ObjectFileName:", " .vgi ", as_raw},
@@ -70,14 +82,25 @@ constexpr ForeignFormat formats_not_read[] = {
     {"a BOV header", 0, "", " .bov ", as_raw},
     {"a PVM volume", 0, "PVM", "", as_raw},
     {"a MagicaVoxel file", 0, "VOX ", " .vox ", numpy},
-    {"a surface", 0, "", " .ply .stl .obj .off .gii ", surface},
-    {"a table of text", 0, "", " .csv .xyz ", numpy},
+    {"a surface", 0, "", " .ply .stl .obj .off .gii .3mf .fbx .dae .iges .igs .step .stp ",
+     surface},
+    {"a surface", 0, "glTF", " .gltf ", surface},
+    {"a cloud of points", 0, "# .PCD", " .pcd .e57 ", points},
+    {"a cloud of points", 0, "LASF", " .las .laz ", points},
+    {"a table of text", 0, "", " .csv .tsv .xyz ", numpy},
+    {"a table", 0, "PAR1", " .parquet .feather .arrow .xlsx ", numpy},
+    {"arrays of safetensors", 0, "", " .safetensors ", numpy},
+    {"a LabVIEW TDMS file", 0, "TDSm", "", "nptdms reads it, numpy.save writes .npy"},
+    {"a state of ParaView", 0, "<ParaView>", " .pvsm ", "name the data that it shows"},
     {"a Python pickle or PyTorch file", 0, "", " .pkl .pickle .pt .pth ", numpy},
     {"an OpenEXR picture", 0, "\x76\x2f\x31\x01", "", pictures},
+    {"a film", 4, "ftyp", " .mp4 .mov .mkv .webm .avi .wmv .mpg ", as_frames},
+    {"a JPEG 2000 picture", 0, "\xff\x4f\xff\x51", "", pictures},
     {"a JPEG 2000 picture", 0, "\0\0\0\x0cjP  "sv, "", pictures},
     {"a WebP picture", 8, "WEBP", "", pictures},
     {"a GIF picture", 0, "GIF8", "", pictures},
     {"a picture", 0, "", " .bmp .pgm .ppm .pnm ", pictures},
+    {"samples without a header", 0, "", " .raw .vol .bin .dat .data ", with_size},
     {"a Git LFS pointer", 0, "version https://git-lfs", "", "git lfs pull fetches the data"},
     {"a web page", 0, "<!DOCTYPE html", "", download},
     {"a web page", 0, "<!doctype html", "", download},
@@ -88,6 +111,7 @@ constexpr ForeignFormat formats_not_read[] = {
     {"an xz file", 0, "\xfd\x37zXZ", "", unpack},
     {"a zstd file", 0, "\x28\xb5\x2f\xfd", "", unpack},
     {"a 7z archive", 0, "7z\xbc\xaf\x27\x1c", "", unpack},
+    {"a RAR archive", 0, "Rar!\x1a", "", unpack},
     {"a tar archive", 257, "ustar", "", unpack}};
 
 }  // namespace
@@ -103,9 +127,12 @@ void expect_no_foreign_file(const std::filesystem::path& path, bool is_named) {
         return static_cast<char>(std::tolower(letter));
     });
     for (const ForeignFormat& format : formats_not_read) {
+        // A declaration of XML may stand in front of an element.
+        const bool is_element = format.mark.starts_with('<') && beginning.starts_with('<');
         const bool is_marked =
             !format.mark.empty() && beginning.size() > format.at &&
-            std::string_view(beginning).substr(format.at).starts_with(format.mark);
+            (std::string_view(beginning).substr(format.at).starts_with(format.mark) ||
+             (is_element && beginning.find(format.mark) != beginning.npos));
         const bool has_name =
             !extension.empty() && std::string_view(format.extensions).find(" " + extension + " ") !=
                                       std::string_view::npos;

@@ -66,21 +66,6 @@ std::vector<std::string> words_in(const std::string& text, std::size_t count) {
     return words;
 }
 
-// An attribute that says lengths, as a program spells it.
-struct LengthKey {
-    const char* key;
-    const char* unit;  // "": an attribute beside it may say it
-};
-constexpr LengthKey step_keys[] = {
-    {"element_size_um", "um"}, {"voxel_size_um", "um"}, {"voxel_size_nm", "nm"},
-    {"voxel_size_mm", "mm"},   {"pixel_size_um", "um"}, {"resolution", ""},
-    {"voxel_size", ""},        {"voxelSize", ""},       {"VoxelSize", ""},
-    {"voxelsize", ""},         {"spacing", ""},         {"Spacing", ""},
-    {"pixelSize", ""},         {"PixelSize", ""},       {"pixel_size", ""},
-    {"element_size", ""},      {"pixelResolution", ""}, {"gridSpacing", ""}};
-constexpr LengthKey place_keys[] = {{"origin", ""}, {"Origin", ""},      {"offset", ""},
-                                    {"Offset", ""}, {"translation", ""}, {"gridGlobalOffset", ""}};
-
 // Describes the axes of one array.
 class AxisReader {
   public:
@@ -203,55 +188,42 @@ class AxisReader {
 
     // Reads distances and places from attributes of the array or, if it has none, of its groups.
     void read_lengths() {
-        read_lengths(array_.id());
-        for (const std::string& parent : parents_) read_lengths(files_.group(parent).id());
+        read_lengths(array_.id(), true);
+        for (const std::string& parent : parents_) read_lengths(files_.group(parent).id(), false);
+    }
+
+    // Reads what openPMD adds (standard 1.1, "Mesh Based Records"): the place of values in their
+    // cells, and the SI values of one unit.
+    void read_openpmd() {
+        if (H5Aexists(files_.group("/").id(), "openPMD") <= 0) return;
+        const std::vector<double> position = numbers_of(array_.id(), "position");
+        const std::size_t count = described.axes.size();
+        if (position.size() == count && described.steps.size() == count) {
+            described.firsts.resize(count);
+            for (std::size_t i = 0; i < count; ++i)
+                described.firsts[i] += position[i] * described.steps[i];
+        }
+        const std::vector<double> value = numbers_of(array_.id(), "unitSI");
+        if (value.size() == 1 && value[0] != 1) {
+            warn(fmt::format("{}: unitSI {}: values are as they are stored, not in SI units",
+                             array_.name(), value[0]));
+        }
     }
 
   private:
+    void read_lengths(hid_t object, bool is_own) {
+        add_lengths(described,
+                    {[&](const std::string& key) { return numbers_of(object, key); },
+                     [&](const std::string& key) { return text_of(object, key); }, is_own});
+    }
+
     // Reads names of axes from one attribute of an object, if there is one.
     void read_attribute(hid_t object) {
-        for (const char* const key :
-             {"_ARRAY_DIMENSIONS", "axes", "axisLabels", "axis_labels", "dims", "dimorder"}) {
+        for (const char* const key : axis_name_keys) {
             const std::vector<std::string> texts = texts_of(object, key);
             const std::size_t count = described.axes.size();
             name_axes(texts.size() == 1 ? words_in(texts[0], count) : texts);
         }
-    }
-
-    void read_lengths(hid_t object) {
-        for (const auto& [key, unit] : step_keys) {
-            if (!described.steps.empty()) break;
-            described.steps = usable(object, key, true);
-            if (!described.steps.empty()) described.unit = unit;
-            for (const char* const word : {"_unit", "_units", "Unit", "Units"})
-                if (described.unit.empty())
-                    described.unit = text_of(object, std::string(key) + word);
-        }
-        for (const auto& [key, unit] : place_keys)
-            if (described.firsts.empty()) described.firsts = usable(object, key, false);
-    }
-
-    // Returns the numbers of an attribute, if they fit the axes, and says how they are taken.
-    std::vector<double> usable(hid_t object, const char* key, bool are_steps) const {
-        std::vector<double> numbers = numbers_of(object, key);
-        const std::size_t count = numbers.size();
-        const bool is_own = object == array_.id();  // a group's single number may mean anything
-        if (count == 0 || (count == 1 && !(are_steps && is_own))) return {};
-        const bool good = std::ranges::all_of(numbers, [&](double number) {
-            return std::isfinite(number) && (number != 0 || !are_steps);
-        });
-        if (!good || (count != 1 && count != 3 && count != described.axes.size())) {
-            warn(fmt::format("{}: {}: found {}, expected a number for each axis: it is not used",
-                             array_.name(), key, fmt::join(numbers, ", ")));
-            return {};
-        }
-        const bool differ =
-            std::ranges::adjacent_find(numbers, std::ranges::not_equal_to()) != numbers.end();
-        if (differ && std::string_view(key) != "element_size_um") {
-            warn(fmt::format("{}: {} ({}) is taken in the order of the array's axes", array_.name(),
-                             key, fmt::join(numbers, ", ")));
-        }
-        return numbers;
     }
 
     Hdf5Files& files_;
@@ -289,6 +261,7 @@ DescribedArray describe_hdf5(Hdf5Files& files, const Hdf5Array& array, const Hdf
     reader.read_names();
     reader.read_coordinates_beside();
     reader.read_lengths();
+    reader.read_openpmd();
     return reader.described;
 }
 

@@ -360,6 +360,25 @@ std::string one_spelling(const std::string& path) {
     return spelled;
 }
 
+// Returns the one of several arrays that its group calls its signal (NeXus, "NXdata"), and says so;
+// empty if not exactly one is.
+std::string signal_of(const Hdf5Files& files, const std::vector<std::string>& arrays) {
+    if (arrays.size() < 2) return {};
+    std::vector<std::string> signals;
+    for (const std::string& array : arrays) {
+        const std::size_t slash = array.rfind('/');
+        const Hdf5Handle group = files.group(slash == 0 ? "/" : array.substr(0, slash));
+        if (group.valid() && text_of(group.id(), "signal") == array.substr(slash + 1))
+            signals.push_back(array);
+    }
+    if (signals.size() != 1) return {};
+    warn(
+        fmt::format("{}: array {} of {} is taken, the signal of its group (NeXus): \"array\" in "
+                    "the volume names another",
+                    files.name(), one_line(signals[0]), arrays.size()));
+    return signals[0];
+}
+
 }  // namespace
 
 Hdf5Layout hdf5_layout(Hdf5Files& files, const std::string& named, const VolumeRequest& request,
@@ -380,8 +399,10 @@ Hdf5Layout hdf5_layout(Hdf5Files& files, const std::string& named, const VolumeR
         return itk_image(files, request);
     if ((array.empty() || array.starts_with("/minc-2.0/")) && files.has("/minc-2.0"))
         fail_as_minc(files.name());
-    if (array.empty()) contents.arrays = files.arrays();
-    return Hdf5Layout(array.empty() ? only_array(contents.arrays, files.name()) : array, request);
+    if (!array.empty()) return Hdf5Layout(array, request);
+    contents.arrays = files.arrays();
+    const std::string signal = signal_of(files, contents.arrays);
+    return Hdf5Layout(signal.empty() ? only_array(contents.arrays, files.name()) : signal, request);
 }
 
 }  // namespace lamina

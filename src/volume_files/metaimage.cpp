@@ -37,6 +37,7 @@ class MetaImageFields {
             const std::string key = without_blanks(line.substr(0, equals));
             if (!fields_.emplace(key, without_blanks(line.substr(equals + 1))).second)
                 fail("{}: line {}: second '{}'", file_, number, one_line(key.substr(0, 40)));
+            if (key == "ObjectType" && text(key) != "Image") reject(key, "Image");
         }
         if (!has("ElementDataFile"))
             fail("{}: no ElementDataFile in the header, expected one", file_);
@@ -135,7 +136,6 @@ class MetaImage {
           fields_(path),
           dimensions_(static_cast<std::size_t>(fields_.whole("NDims", 3, 4))),
           sizes_(fields_.wholes("DimSize", dimensions_, 1, largest_size)) {
-        if (fields_.text("ObjectType", "Image") != "Image") fields_.reject("ObjectType", "Image");
         if (fields_.text("HeaderSizePerSlice", "0") != "0")
             fields_.reject("HeaderSizePerSlice", "0");
     }

@@ -277,6 +277,16 @@ constexpr NiftiType types[] = {
     {256, ValueType::int8, 1},   {512, ValueType::uint16, 1},  {768, ValueType::uint32, 1},
     {1024, ValueType::int64, 1}, {1280, ValueType::uint64, 1}, {2304, ValueType::uint8, 4}};
 
+// Types that are not drawn.
+constexpr struct {
+    std::int64_t code;
+    const char* name;
+} other_types[] = {{1, "bits"},
+                   {32, "complex numbers"},
+                   {1536, "floats of 128 bits"},
+                   {1792, "complex numbers"},
+                   {2048, "complex numbers"}};
+
 constexpr std::int64_t label_intent = 1002;  // nifti1.h, NIFTI_INTENT_LABEL
 
 // Returns the header of a pair if the path is its other file, "a.img".
@@ -311,8 +321,13 @@ NiftiHeader expected_header(const Path& path) {
 NiftiType type_of(const NiftiHeader& header) {
     const auto* const found = std::ranges::find(types, header.datatype, &NiftiType::code);
     if (found == std::end(types)) {
-        fail("{}: datatype: found {}, expected integers or floats of up to 64 bits, RGB or RGBA",
-             header.path.string(), header.datatype);
+        const auto other =
+            std::ranges::find(other_types, header.datatype, [](auto& one) { return one.code; });
+        fail(
+            "{}: datatype: found {}{}, expected integers or floats of up to 64 bits, RGB or RGBA: "
+            "nibabel converts it",
+            header.path.string(), header.datatype,
+            other == std::end(other_types) ? "" : fmt::format(" ({})", other->name));
     }
     return *found;
 }

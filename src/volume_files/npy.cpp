@@ -75,7 +75,8 @@ NpyArray npy_array(const std::filesystem::path& path, const std::string& name,
     const auto type = array.is_half ? ValueType::uint16 : numpy_type(word);
     const bool ordered = !descr.empty() && std::string_view("<>|").find(descr[0]) != descr.npos;
     if (!type || !ordered)
-        header.wrong("descr", "integers or floats of up to 64 bits, such as '<f4'");
+        header.wrong("descr",
+                     "integers or floats of up to 64 bits, such as '<f4'" + numpy_advice(word));
     const std::vector<std::int64_t> shape = header.shape();
     if (shape.size() < 3 || shape.size() > 5 ||
         std::ranges::any_of(shape, [](std::int64_t size) { return size < 1; }))
@@ -220,6 +221,28 @@ class Npz {
 };
 
 }  // namespace
+
+std::string numpy_advice(std::string_view word) {
+    switch (word.empty() || word[0] == '(' ? 'V' : word[0]) {
+        case 'c':
+            return ": these are complex numbers, of which numpy.abs(array) can be drawn";
+        case 'O':
+            return ": these are Python objects, which would run code: array.astype(float) can be "
+                   "drawn";
+        case 'S':
+        case 'U':
+            return ": this is text";
+        case 'M':
+        case 'm':
+            return ": these are dates and times, of which array.astype(int) can be drawn";
+        case 'V':
+            return ": these are records, of which one field, array[\"NAME\"], can be drawn";
+        case 'f':
+            return ": array.astype(\"f8\") can be drawn";
+        default:
+            return {};
+    }
+}
 
 std::optional<ValueType> numpy_type(std::string_view word) {
     struct Word {

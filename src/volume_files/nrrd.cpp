@@ -29,11 +29,20 @@ bool has_direction(const Nrrd& nrrd, unsigned axis) {
     return nrrd.spaceDim > 0 && !std::isnan(nrrd.axis[axis].spaceDirection[0]);
 }
 
+// Tells if an axis is time: by its kind, or because its direction is the fourth axis of a space
+// that has time, too (left-posterior-superior-time, as ITK writes it).
+bool is_time(const Nrrd& nrrd, unsigned axis) {
+    if (nrrd.axis[axis].kind == nrrdKindTime) return true;
+    const double* const direction = nrrd.axis[axis].spaceDirection;
+    return nrrd.spaceDim == 4 && direction[3] != 0 &&
+           std::all_of(direction, direction + 3, [](double part) { return part == 0; });
+}
+
 // Tells if the header says that an axis does not lie in space.
 bool is_apart(const Nrrd& nrrd, unsigned axis) {
+    if (is_time(nrrd, axis)) return true;
     const int kind = nrrd.axis[axis].kind;
-    if (kind != nrrdKindUnknown && kind != nrrdKindDomain)
-        return !nrrdKindIsDomain(kind) || kind == nrrdKindTime;
+    if (kind != nrrdKindUnknown && kind != nrrdKindDomain) return !nrrdKindIsDomain(kind);
     for (unsigned other = 0; other < nrrd.dim; ++other)
         if (has_direction(nrrd, other)) return !has_direction(nrrd, axis);
     const auto is_spaced = [&](unsigned i) { return !std::isnan(nrrd.axis[i].spacing); };
@@ -114,10 +123,14 @@ WorldAxes axes_of(int space) {
     switch (space) {
         case nrrdSpaceLeftPosteriorSuperior:
         case nrrdSpaceScannerXYZ:  // LPS by definition
+        case nrrdSpaceLeftPosteriorSuperiorTime:
+        case nrrdSpaceScannerXYZTime:
             return WorldAxes::left_posterior_superior;
         case nrrdSpaceRightAnteriorSuperior:
+        case nrrdSpaceRightAnteriorSuperiorTime:
             return WorldAxes::right_anterior_superior;
         case nrrdSpaceLeftAnteriorSuperior:
+        case nrrdSpaceLeftAnteriorSuperiorTime:
             return WorldAxes::left_anterior_superior;
         default:
             return WorldAxes::unnamed;
@@ -126,10 +139,10 @@ WorldAxes axes_of(int space) {
 
 void set_steps_by_directions(const std::string& file, const Nrrd& nrrd,
                              const std::vector<unsigned>& axes, Grid& grid) {
-    if (nrrd.spaceDim != 3) {
-        fail("{}: space: found {} dimensions, expected 3", file, nrrd.spaceDim);
+    if (nrrd.spaceDim != 3 && nrrd.spaceDim != 4) {
+        fail("{}: space: found {} dimensions, expected 3, or 4 with time", file, nrrd.spaceDim);
     }
-    if (nrrd.space == nrrdSpace3DLeftHanded)
+    if (nrrd.space == nrrdSpace3DLeftHanded || nrrd.space == nrrdSpace3DLeftHandedTime)
         warn(
             fmt::format("{}: space: 3D-left-handed axes are drawn as right-handed ones, which "
                         "shows a mirror image",
@@ -140,6 +153,12 @@ void set_steps_by_directions(const std::string& file, const Nrrd& nrrd,
                  axes[i]);
         }
         const double* const direction = nrrd.axis[axes[i]].spaceDirection;
+        if (nrrd.spaceDim == 4 && direction[3] != 0) {
+            fail(
+                "{}: space directions: axis {} runs through time, too: expected 0 as the last "
+                "number of each axis in space",
+                file, axes[i]);
+        }
         grid.step[i] = {direction[0], direction[1], direction[2]};
     }
 }
@@ -153,22 +172,17 @@ void set_steps_by_spacings(const Nrrd& nrrd, const std::vector<unsigned>& axes, 
     }
 }
 
-// Returns the unit of all three axes in space: that of `space units` if they have directions, else
-// of `units`. Throws Error if axes have different ones; there is none if an axis has none.
-std::string nrrd_unit_of(const std::string& file, const Nrrd& nrrd,
-                         const std::vector<unsigned>& axes, bool directed) {
+// Returns the units of the three axes of space: `space units` if the data's axes have directions,
+// else `units`; none if an axis has none.
+std::array<std::string, 3> nrrd_units(const Nrrd& nrrd, const std::vector<unsigned>& axes,
+                                      bool directed) {
     std::array<std::string, 3> units;
     for (std::size_t i = 0; i < 3; ++i) {
         const char* const found = directed ? nrrd.spaceUnits[i] : nrrd.axis[axes[i]].units;
         if (found != nullptr) units[i] = unit_word(found);
     }
-    for (const std::string& unit : units) {
-        if (unit == units[0] || unit.empty() || units[0].empty()) continue;
-        fail("{}: {}: found \"{}\" and \"{}\", expected one unit for the three axes", file,
-             directed ? "space units" : "units", units[0], unit);
-    }
     const bool all = std::ranges::none_of(units, [](const auto& unit) { return unit.empty(); });
-    return all ? units[0] : std::string();
+    return all ? units : std::array<std::string, 3>();
 }
 
 // Returns the grid of a parsed header (docs/scene.md, "What is drawn"). `has_spacings`: it has the
@@ -189,10 +203,10 @@ Grid nrrd_grid(const std::string& file, const Nrrd& nrrd, bool has_spacings) {
         if (has_spacings) expect_spacings(file, nrrd, axes);
         set_steps_by_spacings(nrrd, axes, grid);
     }
-    if (nrrd.spaceDim == 3 && !std::isnan(nrrd.spaceOrigin[0])) {
+    if ((nrrd.spaceDim == 3 || nrrd.spaceDim == 4) && !std::isnan(nrrd.spaceOrigin[0])) {
         grid.origin = {nrrd.spaceOrigin[0], nrrd.spaceOrigin[1], nrrd.spaceOrigin[2]};
     }
-    grid.unit = nrrd_unit_of(file, nrrd, axes, directed);
+    unite_units(file, grid, nrrd_units(nrrd, axes, directed));
     turn_to_lps(grid, axes_of(nrrd.space));
     check_grid(file, grid, {"space directions", "space origin"});
     return grid;
@@ -208,7 +222,7 @@ std::vector<StoredAxis> nrrd_axes(const std::string& file, const Nrrd& nrrd,
     for (unsigned i = 0; i < nrrd.dim; ++i) {
         axes[i].size = static_cast<std::int64_t>(nrrd.axis[i].size);
         if (axes[i].size == 1 || std::ranges::find(spanning, i) != spanning.end()) continue;
-        const bool time = nrrd.axis[i].kind == nrrdKindTime;
+        const bool time = is_time(nrrd, i);
         if (++(time ? times : channels) > 1)
             fail("{}: dimension: found several axes of {}s, expected one", file,
                  time ? "time" : "channel");
@@ -467,9 +481,10 @@ ValueType type_of_nrrd(const std::string& path, int type) {
 DataEncoding encoding_of(const std::string& path, const ::NrrdEncoding* encoding) {
     if (encoding == nrrdEncodingRaw) return DataEncoding::raw;
     if (encoding == nrrdEncodingAscii) return DataEncoding::ascii;
+    if (encoding == nrrdEncodingHex) return DataEncoding::hex;
     if (encoding == nrrdEncodingGzip) return DataEncoding::gzip;
     if (encoding == nrrdEncodingBzip2) return DataEncoding::bzip2;
-    fail("{}: encoding: found '{}', expected raw, gzip, bzip2 or ascii", path, encoding->name);
+    fail("{}: encoding: found '{}', expected raw, gzip, bzip2, ascii or hex", path, encoding->name);
 }
 
 struct NrrdHeader {
@@ -599,10 +614,13 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeReque
         const NrrdAxisInfo& axis = nrrd->axis[i];
         header.is_colour |= axis.kind == nrrdKindRGBColor || axis.kind == nrrdKindRGBAColor ||
                             axis.kind == nrrdKind3Color || axis.kind == nrrdKind4Color;
-        if (axis.kind != nrrdKindTime) continue;
-        header.first_time = std::isnan(axis.min) ? 0 : axis.min;
-        header.time_step = known_spacing_of(axis);
-        header.time_unit = axis.units == nullptr ? "" : unit_word(axis.units);
+        if (!is_time(*nrrd, i)) continue;
+        const bool is_directed = nrrd->spaceDim == 4 && has_direction(*nrrd, i);
+        const double first = is_directed ? nrrd->spaceOrigin[3] : axis.min;
+        header.first_time = std::isnan(first) ? 0 : first;
+        header.time_step = is_directed ? axis.spaceDirection[3] : known_spacing_of(axis);
+        const char* const unit = is_directed ? nrrd->spaceUnits[3] : axis.units;
+        header.time_unit = unit == nullptr ? "" : unit_word(unit);
     }
     if (nrrd->sampleUnits != nullptr) header.sample_unit = unit_word(nrrd->sampleUnits);
     take_label_keys(text.keys, request, header);

@@ -237,13 +237,13 @@ void check_file_count(const StoredData& data, std::int64_t found,
 }
 
 const char* name_of(DataEncoding encoding) {
-    static constexpr const char* words[] = {"raw", "ascii", "gzip", "bzip2"};
+    static constexpr const char* words[] = {"raw", "ascii", "hex", "gzip", "bzip2"};
     return word_of(encoding, words);
 }
 
 // Tells if byte_skip counts bytes of the file; otherwise it counts those of the decompressed data.
 bool skips_stored(const StoredData& data) {
-    return data.encoding == DataEncoding::raw || data.encoding == DataEncoding::ascii;
+    return data.encoding != DataEncoding::gzip && data.encoding != DataEncoding::bzip2;
 }
 
 std::string named_size(const StoredData& data) {
@@ -419,6 +419,7 @@ OpenedFile StoredReader::open(const Path& path) const {
 std::uint64_t StoredReader::capacity(std::uint64_t stored) const {
     if (data_.encoding == DataEncoding::raw) return stored;
     if (data_.encoding == DataEncoding::ascii) return (stored + 1) / 2 * bytes_of(data_.type);
+    if (data_.encoding == DataEncoding::hex) return stored / 2;
     return stored * (data_.encoding == DataEncoding::gzip ? gzip_expansion : bzip2_expansion);
 }
 
@@ -454,6 +455,10 @@ std::unique_ptr<ByteReader> StoredReader::open_binary(const Path& path) const {
         skip_bytes(file.get());
         // Data placed from the end of the file have as many bytes behind them as the header says.
         return file_reader(std::move(file), path.string(), data_.byte_skip >= 0);
+    }
+    if (data_.encoding == DataEncoding::hex) {
+        skip_bytes(file.get());
+        return hex_reader(std::move(file), path.string());
     }
     const auto open_packed = data_.encoding == DataEncoding::gzip ? gzip_reader : bzip2_reader;
     std::unique_ptr<ByteReader> reader = open_packed(std::move(file), path.string());

@@ -59,7 +59,7 @@ char* take_of_memory(const char* from, std::span<const StoredAxis> axes, std::si
 std::int64_t taken_of(const std::string& file, const char* what,
                       const std::optional<std::int64_t>& wanted, std::int64_t count);
 
-enum class DataEncoding { raw, ascii, gzip, bzip2 };  // gzip stands for zlib, too
+enum class DataEncoding { raw, ascii, hex, gzip, bzip2 };  // gzip stands for zlib, too
 
 // Describes where the samples of a volume lie, as a header says.
 struct StoredData {

@@ -2,9 +2,11 @@
 #include "volume_files/tiff_file.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <new>
+#include <type_traits>
 #include <vector>
 
 #include "base/error.h"
@@ -17,6 +19,40 @@ namespace {
 // Max bytes that one compressed byte expands to: zstd's longest run, 128 KiB, takes 4 bytes.
 constexpr std::uint64_t most_expansion = 32768;
 constexpr tmsize_t most_memory = tmsize_t{1} << 31;  // bytes that libtiff itself may take at once
+
+// Stores numbers of `bits` bits, the highest first, in values of `Value`. Each row of them begins
+// with a byte.
+template <typename Value>
+void unpack_bits(const char* from, unsigned bits, std::int64_t rows, std::int64_t count,
+                 Value* to) {
+    for (std::int64_t row = 0; row < rows; ++row) {
+        std::uint64_t window = 0;  // the bits that are read and not yet stored
+        unsigned held = 0;         // how many
+        for (std::int64_t i = 0; i < count; ++i) {
+            for (; held < bits; held += 8)
+                window = window << 8 | static_cast<unsigned char>(*from++);
+            held -= bits;
+            *to++ = static_cast<Value>(window >> held & ((std::uint64_t{1} << bits) - 1));
+        }
+    }
+}
+
+// Returns the samples of rows in whole bytes. `type`: the one that they get.
+std::vector<char> unpacked(const std::vector<char>& from, unsigned bits, std::int64_t rows,
+                           std::int64_t count, ValueType type) {
+    std::vector<char> values(static_cast<std::size_t>(rows * count) * bytes_of(type));
+    with_type(type, [&](auto zero) {
+        if constexpr (std::is_unsigned_v<decltype(zero)>)
+            unpack_bits(from.data(), bits, rows, count,
+                        reinterpret_cast<decltype(zero)*>(values.data()));
+    });
+    return values;
+}
+
+// Returns the bytes of a row of samples in the file.
+std::size_t stored_row(const TiffPage& page, std::int64_t samples) {
+    return (static_cast<std::size_t>(samples) * page.bits + 7) / 8;
+}
 
 // Copies value number `sample` of every `samples` values, `count` times. `word`: a value's bytes.
 void take_sample(const char* from, std::int64_t samples, std::int64_t sample, std::int64_t count,
@@ -40,9 +76,11 @@ std::string TiffPage::type_text() const {
 
 std::optional<ValueType> TiffPage::known_type() const {
     const bool floats = format == SAMPLEFORMAT_IEEEFP, is_signed = format == SAMPLEFORMAT_INT;
-    if (bits % 8 != 0 || format > SAMPLEFORMAT_VOID) return {};
+    if (format > SAMPLEFORMAT_VOID || (is_bitwise() && (bits > 31 || floats || is_signed)))
+        return {};
     if (is_half()) return ValueType::uint16;
-    return number_type(bits / 8, !floats, floats || is_signed);
+    const unsigned bytes = is_bitwise() ? std::bit_ceil((bits + 7U) / 8) : bits / 8U;
+    return number_type(bytes, !floats, floats || is_signed);
 }
 
 ValueType TiffPage::type(const std::string& file) const {
@@ -51,7 +89,7 @@ ValueType TiffPage::type(const std::string& file) const {
                              : format > SAMPLEFORMAT_VOID  ? "complex numbers"
                                                            : "integers";
     fail(
-        "{}: page {}: found samples that are {} of {} bits, expected integers of 8, 16, 32 or 64 "
+        "{}: page {}: found samples that are {} of {} bits, expected integers of up to 32 or of 64 "
         "bits, or floats of 16, 32 or 64",
         file, number + 1, kind, bits);
 }
@@ -126,7 +164,8 @@ std::string TiffFile::description() const {
 }
 
 std::uint64_t TiffFile::capacity() const {
-    return file_bytes_ * (is_packed() ? most_expansion : 1);
+    const bool is_bitwise = field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1) % 8 != 0;
+    return file_bytes_ * (is_packed() ? most_expansion : 1) * (is_bitwise ? 8 : 1);
 }
 
 void TiffFile::read(const TiffPage& page, std::int64_t sample, std::int64_t image, char* to) {
@@ -143,7 +182,7 @@ void TiffFile::read(const TiffPage& page, std::int64_t sample, std::int64_t imag
 }
 
 std::optional<std::int64_t> TiffFile::raw_samples() const {
-    if (is_packed() || is_tiled()) return {};
+    if (is_packed() || is_tiled() || page().is_bitwise()) return {};
     TIFF* const tiff = tiff_.get();
     for (std::uint32_t i = 0; i + 1 < TIFFNumberOfStrips(tiff); ++i) {
         if (TIFFGetStrileOffset(tiff, i) + TIFFGetStrileByteCount(tiff, i) !=
@@ -172,7 +211,37 @@ TiffBeginning TiffFile::beginning() const {
     return found;
 }
 
+// Throws Error if libtiff does not decode the first page's samples, with the name of their
+// compression.
+void TiffFile::check_compression() const {
+    static constexpr struct {
+        int number;
+        const char* name;
+    } known[] = {{6, "JPEG of old style"},
+                 {34712, "JPEG 2000"},
+                 {33003, "JPEG 2000 (Aperio)"},
+                 {33005, "JPEG 2000 (Aperio)"},
+                 {34887, "LERC"},
+                 {22610, "JPEG XR"},
+                 {50002, "JPEG XL"},
+                 {52546, "JPEG XL"},
+                 {50001, "WebP"},
+                 {50000, "zstd"},
+                 {34925, "LZMA"},
+                 {34713, "Nikon NEF"},
+                 {34892, "lossy JPEG of DNG"},
+                 {34933, "PNG"}};
+    const auto number = field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE);
+    if (TIFFIsCODECConfigured(number) != 0) return;
+    const auto found = std::ranges::find_if(known, [&](auto& one) { return one.number == number; });
+    fail(
+        "{}: found samples compressed as {} (compression {}), which this libtiff does not decode: "
+        "Fiji or tifffile saves them uncompressed",
+        name_, found == std::end(known) ? "unknown" : found->name, number);
+}
+
 void TiffFile::check_tags(bool described) const {
+    check_compression();
     const auto photometric = field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
     const auto orientation = field<std::uint16_t>(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
     if (photometric == PHOTOMETRIC_MINISWHITE)
@@ -262,24 +331,31 @@ void TiffFile::check_makers(bool described) const {
 void TiffFile::read_strips(const TiffPage& page, std::int64_t sample, char* to) {
     const std::size_t word = bytes_of(page.type(name_));
     const std::int64_t together = page.planar ? 1 : page.samples;  // samples beside each other
-    const std::size_t row_bytes = static_cast<std::size_t>(page.width * together) * word;
+    const std::size_t row_bytes = stored_row(page, page.width * together);
     const std::int64_t rows =
         std::min<std::int64_t>(field<std::uint32_t>(TIFFTAG_ROWSPERSTRIP, 0xffffffff), page.height);
     if (rows < 1 || TIFFScanlineSize64(tiff_.get()) != row_bytes)
         fail("{}: page {}: its strips do not hold whole rows", name_, number_ + 1);
     const std::int64_t strips = (page.height + rows - 1) / rows;
-    std::vector<char> strip(together > 1 ? row_bytes * static_cast<std::size_t>(rows) : 0);
+    const bool is_direct = together == 1 && !page.is_bitwise();
+    std::vector<char> strip(is_direct ? 0 : row_bytes * static_cast<std::size_t>(rows));
     for (std::int64_t i = 0; i < strips; ++i) {
         check_interrupt();
         const std::int64_t height = std::min(rows, page.height - i * rows);
         const std::size_t bytes = row_bytes * static_cast<std::size_t>(height);
-        char* const into = together > 1 ? strip.data() : to;
+        char* const into = is_direct ? to : strip.data();
         const auto number = static_cast<std::uint32_t>(i + (page.planar ? sample * strips : 0));
         const tmsize_t got =
             TIFFReadEncodedStrip(tiff_.get(), number, into, static_cast<tmsize_t>(bytes));
         if (got != static_cast<tmsize_t>(bytes)) fail_with_reason("damaged or truncated");
         const std::int64_t pixels = page.width * height;
-        if (together > 1) take_sample(strip.data(), together, sample, pixels, word, to);
+        if (page.is_bitwise()) {
+            const auto values =
+                unpacked(strip, page.bits, height, page.width * together, page.type(name_));
+            take_sample(values.data(), together, together > 1 ? sample : 0, pixels, word, to);
+        } else if (together > 1) {
+            take_sample(strip.data(), together, sample, pixels, word, to);
+        }
         to += static_cast<std::size_t>(pixels) * word;
     }
 }
@@ -291,7 +367,10 @@ void TiffFile::read_tiles(const TiffPage& page, std::int64_t sample, std::int64_
     const std::int64_t height = field<std::uint32_t>(TIFFTAG_TILELENGTH, 0);
     const std::int64_t depth = field<std::uint32_t>(TIFFTAG_TILEDEPTH, 1);
     const StoredAxis axes[] = {width, height, depth, together};
-    const std::size_t tile_bytes = stored_bytes(name_, axes, word);
+    const std::size_t value_bytes = stored_bytes(name_, axes, word);
+    const std::size_t tile_bytes = page.is_bitwise() ? stored_row(page, width * together) *
+                                                           static_cast<std::size_t>(height * depth)
+                                                     : value_bytes;
     // libtiff's tiles are one image deep; of deeper ones it reads the bytes as they are.
     const bool is_deep = depth > 1;
     if (is_deep && is_packed()) {
@@ -304,7 +383,7 @@ void TiffFile::read_tiles(const TiffPage& page, std::int64_t sample, std::int64_
         fail("{}: page {}: found tiles of {} x {} pixels, more than the file can hold", name_,
              number_ + 1, width, height);
     }
-    std::vector<char> tile(tile_bytes), plane(together > 1 ? tile_bytes : 0);
+    std::vector<char> tile(tile_bytes), values, plane(together > 1 ? value_bytes : 0);
     for (std::int64_t y = 0; y < page.height; y += height) {
         for (std::int64_t x = 0; x < page.width; x += width) {
             check_interrupt();
@@ -316,10 +395,15 @@ void TiffFile::read_tiles(const TiffPage& page, std::int64_t sample, std::int64_
             const tmsize_t got =
                 read(tiff_.get(), number, tile.data(), static_cast<tmsize_t>(tile_bytes));
             if (got != static_cast<tmsize_t>(tile_bytes)) fail_with_reason("damaged or truncated");
-            if (is_deep && TIFFIsByteSwapped(tiff_.get()) != 0) {
+            if (is_deep && TIFFIsByteSwapped(tiff_.get()) != 0 && !page.is_bitwise()) {
                 swap_bytes_alone(tile.data(), static_cast<std::int64_t>(tile_bytes / word), word);
             }
             const char* from = tile.data();
+            if (page.is_bitwise()) {
+                values =
+                    unpacked(tile, page.bits, height * depth, width * together, page.type(name_));
+                from = values.data();
+            }
             if (together > 1) {
                 take_sample(from, together, sample, width * height * depth, word, plane.data());
                 from = plane.data();

@@ -25,6 +25,8 @@ struct TiffPage {
     bool is_reduced = false;   // a smaller copy of another page, or a mask
     std::uint16_t bits = 1, format = SAMPLEFORMAT_UINT;  // of a sample
 
+    // Tells if samples are not whole bytes, but beside each other in the bits of a row.
+    bool is_bitwise() const { return bits % 8 != 0; }
     bool is_half() const { return format == SAMPLEFORMAT_IEEEFP && bits == 16; }
     bool is_like(const TiffPage& other) const;  // in size and type
     std::string type_text() const;
@@ -70,6 +72,7 @@ class TiffFile {
 
   private:
     bool is_packed() const;
+    void check_compression() const;
     double resolution(ttag_t tag) const;  // pixels per unit of length; 0: unknown
     std::string description() const;
     void check_makers(bool described) const;

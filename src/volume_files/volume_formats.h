@@ -109,5 +109,7 @@ std::vector<std::filesystem::path> files_of_pictures(const std::filesystem::path
 
 // Returns the type of NumPy's type word without byte order, such as "f8". "b1" (truth) is a byte.
 std::optional<ValueType> numpy_type(std::string_view word);
+// Returns what such a word that numpy_type() does not know means, and what to do, to end a message.
+std::string numpy_advice(std::string_view word);
 
 }  // namespace lamina

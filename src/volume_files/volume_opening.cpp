@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -140,6 +142,32 @@ double metres_of(std::string_view unit) {
     for (const Length& length : lengths)
         if (length.words.find(whole) != std::string_view::npos) return length.metres;
     return 0;
+}
+
+void unite_units(const std::string& name, Grid& grid, const std::array<std::string, 3>& units) {
+    for (const std::string& unit : units)
+        if (grid.unit.empty()) grid.unit = unit;
+    std::array<std::string, 3> words = units;
+    std::ranges::replace(words, std::string(), std::string("none"));
+    bool differ = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double from = metres_of(units[i]), to = metres_of(grid.unit);
+        const bool are_degrees = units[i].starts_with("degree") && grid.unit.starts_with("degree");
+        if (units[i] == grid.unit || units[i].empty() || are_degrees) continue;
+        if (from == 0 || to == 0) {
+            differ |= grid.size[i] > 1;
+            continue;
+        }
+        const int along = static_cast<int>(i);
+        for (glm::dvec3& step : grid.step) step[along] *= from / to;
+        grid.origin[along] *= from / to;
+    }
+    if (differ) {
+        warn(
+            fmt::format("{}: the axes x, y and z have the units {}: their numbers are taken as "
+                        "they are, \"spacing\" in the volume gives others",
+                        name, fmt::join(words, ", ")));
+    }
 }
 
 namespace {

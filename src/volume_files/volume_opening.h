@@ -47,6 +47,10 @@ std::string unit_word(std::string_view found);
 // Returns how many metres a unit of lengths has; 0 if it is none, or unknown.
 double metres_of(std::string_view unit);
 
+// Brings lengths along the world's axes, which have these units (empty: none), to the unit of x, or
+// of the first axis that has one. Other units than lengths that differ are said.
+void unite_units(const std::string& file, Grid& grid, const std::array<std::string, 3>& units);
+
 // Lists what a file has of which a volume is one part, with the file's names; a part without a name
 // has an empty one.
 struct VolumeContents {

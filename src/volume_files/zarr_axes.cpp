@@ -63,6 +63,20 @@ void read_zarr_coordinates(const ZarrArray& array, ArrayAxis& axis) {
     }
 }
 
+// Returns the names of an array's axes, by its header or else by its attributes; empty if there are
+// none.
+std::vector<std::string> axis_names_of(const ZarrArray& array) {
+    if (!array.axis_names.empty()) return array.axis_names;
+    for (const char* const key : axis_name_keys) {
+        const Json* const found = member_of(array.attributes, key);
+        const auto is_text = [](const Json& one) { return one.is_string(); };
+        if (found != nullptr && found->is_array() && found->size() == array.shape.size() &&
+            std::ranges::all_of(*found, is_text))
+            return found->get<std::vector<std::string>>();
+    }
+    return {};
+}
+
 }  // namespace
 
 DescribedArray describe_zarr(const ZarrArray& array, const ZarrImage& image) {
@@ -73,6 +87,7 @@ DescribedArray describe_zarr(const ZarrArray& array, const ZarrImage& image) {
     described.axes.resize(array.shape.size());
     described.steps = image.steps;
     described.firsts = image.firsts;
+    const std::vector<std::string> names = axis_names_of(array);
     if (image.axes.empty()) described.coordinates = text_member(array.attributes, "coordinates");
     for (std::size_t i = 0; i < array.shape.size(); ++i) {
         ArrayAxis& axis = described.axes[i];
@@ -83,9 +98,16 @@ DescribedArray describe_zarr(const ZarrArray& array, const ZarrImage& image) {
                 axis.coordinates.push_back(image.firsts[i] +
                                            static_cast<double>(k) * image.steps[i]);
         }
-        if (!image.axes.empty() || array.axis_names.empty()) continue;
-        axis.name = array.axis_names[i];
+        if (!image.axes.empty() || names.empty()) continue;
+        axis.name = names[i];
         read_zarr_coordinates(array, axis);
+    }
+    if (image.axes.empty()) {
+        add_lengths(
+            described,
+            {[&](const std::string& key) { return zarr_numbers(array.attributes, key.c_str()); },
+             [&](const std::string& key) { return text_member(array.attributes, key.c_str()); },
+             true});
     }
     return described;
 }

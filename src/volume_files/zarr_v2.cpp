@@ -31,8 +31,8 @@ void read_dtype(const Json& document, ZarrArray& array, const std::string& name)
     const auto type = array.is_half ? ValueType::float32
                                     : numpy_type(std::string_view(word).substr(!word.empty()));
     if (!ordered || !type) {
-        fail("{}: dtype: found {}, expected a number of 1, 2, 4 or 8 bytes, as in \"<u2\"", name,
-             json_excerpt(dtype));
+        fail("{}: dtype: found {}, expected a number of 1, 2, 4 or 8 bytes, as in \"<u2\"{}", name,
+             json_excerpt(dtype), numpy_advice(std::string_view(word).substr(!word.empty())));
     }
     array.type = *type;
     const bool big = std::endian::native == std::endian::big;

@@ -39,6 +39,10 @@ TEST_F(ForeignMesh, IsNamedByItsExtension) {
     expect_named("a.cgns", "\x89HDF\r\n", {"CGNS"});
     expect_named("a.case", "FORMAT\n", {"EnSight"});
     expect_named("a.foam", "", {"OpenFOAM"});
+    expect_named("a.vtk.series", "{\"file-series-version\": \"1.0\"}",
+                 {"a list of files in time (ParaView)", ".pvd"});
+    expect_named("a.plt", "#!TDV112", {"a Tecplot data set"});
+    expect_named("a.inp", "*HEADING\n", {"an Abaqus mesh"});
     expect_named("a.med", "\x89HDF\r\n", {"MED"});
 }
 

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Arrays of all kinds against numpy's own conversions."""
 import gc
+import json
 import random
+import subprocess
 import warnings
 import weakref
 
@@ -245,6 +247,39 @@ def test_units_of_files_are_kept(tmp_path):
     assert volume.unit == "um" and lamina.Volume(volume.array).unit == ""
     volume.save(tmp_path / "b.nrrd")
     assert lamina.read(tmp_path / "b.nrrd").unit == "um"
+
+
+def test_info_is_that_of_the_command_line(program, tmp_path):
+    np.save(tmp_path / "four.npy", np.arange(2 * 3 * 4 * 5, dtype=np.int16).reshape(2, 3, 4, 5))
+    labels = "NRRD0005\ntype: uint8\ndimension: 3\nsizes: 2 1 1\nencoding: raw\nSegment0_ID:=s\n"
+    labels += "Segment0_LabelValue:=2\nSegment0_Name:=liver\n\n"
+    (tmp_path / "labels.seg.nrrd").write_bytes(labels.encode() + bytes([1, 2]))
+    (tmp_path / "a.bin").write_bytes(bytes(range(8)))
+    mesh = lamina.Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2, 3)], [0, 1, 2, 3])
+    mesh.save(tmp_path / "a.vtu")
+    (tmp_path / "two.pvd").write_text('<VTKFile type="Collection" version="0.1"><Collection>'
+                                      '<DataSet timestep="0.5" file="a.vtu"/><DataSet timestep="2" file="a.vtu"/>'
+                                      '</Collection></VTKFile>')
+
+    def said(file, *options):
+        return json.loads(subprocess.run([program, "info", "--json", tmp_path / file, *options], capture_output=True,
+                                         check=True).stdout)
+    with pytest.warns(lamina.PictureWarning, match="is taken for channels"):
+        assert lamina.info(tmp_path / "four.npy") == said("four.npy")
+    second = lamina.info(tmp_path / "four.npy", channel=1)
+    assert second == said("four.npy", "--set", "volume.channel=1") and second["channels"] == ["", ""]
+    with pytest.warns(lamina.PictureWarning, match="labels"):
+        named = lamina.info(str(tmp_path / "labels.seg.nrrd"))
+    assert named == said("labels.seg.nrrd") and named["labels"][1]["name"] == "liver"
+    assert lamina.info(tmp_path / "a.bin", size=(2, 2, 2), type="uint8") == said("a.bin", "--raw", "2,2,2,uint8")
+    steps = lamina.info(tmp_path / "two.pvd", time=1)
+    assert steps == said("two.pvd", "--set", "mesh.time=1") and steps["times"] == ["0.5", "2"]
+    (tmp_path / "s.json").write_text("{}")
+    with pytest.raises(lamina.Error, match="s.json: holds a scene, expected a volume or a mesh"):
+        lamina.info(tmp_path / "s.json")
+    (tmp_path / "below").mkdir()
+    with pytest.raises(lamina.Error, match="not below"):
+        lamina.info(tmp_path / "four.npy", only_below=tmp_path / "below")
 
 
 def test_what_a_file_does_not_say_is_told(function, tmp_path):

@@ -322,6 +322,20 @@ def xarray_cases():
         stored[...] = ramp
         stored.attrs.update(attributes)
         bad(f"xarray_missing_{name}", f"missing_{name}.zarr", *words)
+    # Lengths and names of axes, as programs without a convention write them.
+    for name, attributes, steps_of, origin in (
+            ("element", {"element_size_um": [2.5, .75, .5]}, (.5, .75, 2.5), (0, 0, 0)),
+            ("voxel", {"voxel_size": [25, 9, 7], "offset": [3, 2, 1]}, (7, 9, 25), (1, 2, 3)),
+            ("one", {"resolution": 2, "resolution_unit": "nm"}, (2, 2, 2), (0, 0, 0))):
+        stored = zarr.open(f"{FOLDER}/lengths_{name}.zarr", mode="w", shape=ramp.shape, dtype="<i2", fill_value=None)
+        stored[...] = ramp
+        stored.attrs.update(attributes)
+        case(f"lengths_{name}", f"lengths_{name}.zarr", ramp, np.diag(steps_of).astype(float).tolist(), origin)
+        CASES[-1]["unit"] = {"element": "um", "voxel": "", "one": "nm"}[name]
+    stored = zarr.open(f"{FOLDER}/named.zarr", mode="w", shape=ramp.T.shape, dtype="<i2", fill_value=None)
+    stored[...] = ramp.T
+    stored.attrs["axis_names"] = ["x", "y", "z"]
+    case("axis_names", "named.zarr", ramp)
     # Integers with missing samples become floating-point numbers.
     whole = values[0].copy()
     add("whole", whole, ["level", "lat", "lon"], _FillValue=-999)

@@ -92,8 +92,18 @@ TEST_F(NrrdErrors, NameUnsupportedTypesAndEncodings) {
         error_of(write("a.nrrd",
                        with("type", "type: block\nblock size: 3\nendian: little\n") + "\n" + data)),
         {"'block'", "expected a type of numbers"});
-    expect_says(error_of(write("a.nrrd", with("encoding", "encoding: hex\n") + "\n" + data)),
-                {"'hex'", "expected raw, gzip, bzip2 or ascii"});
+    expect_says(error_of(write("a.nrrd", with("encoding", "encoding: hex\n") + "\n" + "00 1x")),
+                {"hex data", "enough for at most 2 bytes"});
+    const std::string digits = "00 01\n02030405 0607 08090a0b0C0D0E0F 1011121314151617";
+    const std::string hex = with("encoding", "encoding: hex\n") + "\n";
+    const Volume volume = open_nrrd(write("h.nrrd", hex + digits + "\n"));
+    for (int i = 0; i < 24; ++i)
+        EXPECT_EQ(static_cast<const unsigned char*>(volume.data())[i], i) << i;
+    expect_says(error_of(write("a.nrrd", hex + digits.substr(0, 45) + "zz" + digits)),
+                {"damaged hex data: found byte 122"});
+    const std::string blanks(99, ' ');
+    expect_says(error_of(write("a.nrrd", hex + "0001" + blanks)),
+                {"found 2 bytes of hex data, expected 24"});
 }
 
 TEST_F(NrrdErrors, RefuseWhatHasNotThreeAxes) {

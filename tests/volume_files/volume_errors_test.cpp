@@ -109,6 +109,14 @@ TEST_F(VolumeErrors, NameFormatsThatAreNotRead) {
     };
     expect("a.any", marked(208, "MAP "),
            {"found an MRC or CCP4 map, which is not read: the Python"});
+    expect("old.rec", marked(212, std::string("DD\0\0", 4)), {"found an MRC or CCP4 map"});
+    expect("a.xml", "<?xml version=\"1.0\"?>\n<SpimData version=\"0.2\"/>",
+           {"the description of a BigDataViewer volume", ".h5"});
+    expect("a.vol", zeros, {"found samples without a header", "--raw"});
+    expect("a.mp4", zeros, {"found a film", "ffmpeg"});
+    expect("a", marked(0, "LASF"), {"found a cloud of points"});
+    expect("a.fld", "# AVS field file\n", {"found an AVS field", ".vti"});
+    expect("a.mha", "ObjectType = Mesh\nNDims = 3\n", {"ObjectType: found 'Mesh'", "Image"});
     expect("a.am", marked(0, "# AmiraMesh BINARY"), {"found an Amira or Avizo file", "NRRD"});
     expect("a.x", marked(0, "ZISRAWFILE"), {"found a Zeiss CZI file", "Bio-Formats"});
     expect("a.LIF", zeros, {"found a Leica file"});

@@ -35,8 +35,8 @@ TEST_F(VolumeFiles, AreKnownByTheirExtensions) {
 TEST_F(VolumeFiles, AreRefusedIfTheirFormatIsUnknown) {
     const std::string nothing = "P5 1 1 255\n";
     expect_error([&] { read_volume(write("a.nrrd", nothing)); }, {"a.nrrd: not a NRRD file"});
-    expect_error([&] { read_volume(write("a.dat", nothing)); },
-                 {"a.dat: unknown kind of volume: expected NRRD (.nrrd, .nhdr)"});
+    expect_error([&] { read_volume(write("a.any", nothing)); },
+                 {"a.any: unknown kind of volume: expected NRRD (.nrrd, .nhdr)"});
     expect_error([&] { read_volume(folder() / "none.raw"); }, {"none.raw", "no such file"});
 }
 

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/process.h"
-#include "file_report.h"
 #include "mesh_files/mesh_file.h"
 #include "output_files.h"
+#include "render/file_report.h"
 #include "shared_options.h"
 #include "verbs.h"
-#include "volume_files/folder_contents.h"
-#include "volume_files/foreign_files.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
@@ -31,6 +31,94 @@ struct InfoOptions {
     RawOptions raw;
     bool json = false;
 };
+
+constexpr std::size_t most_rows = 16, narrowest_end = 8;
+constexpr int bar_letters = 40;
+
+std::string row_end(const std::vector<double>& edges, std::size_t number) {
+    return number_text(edges[number], fineness_of(edges.front(), edges.back()), 5);
+}
+
+// Return the values of keys that are not null as text.
+std::string percentiles_text(const Json& percentiles) {
+    const double fineness =
+        fineness_of(percentiles.front().get<double>(), percentiles.back().get<double>());
+    std::string text;
+    for (const auto& [name, value] : percentiles.items()) {
+        text += fmt::format("{}{} %: {}", text.empty() ? "" : ", ", name,
+                            number_text(value.get<double>(), fineness, 6));
+    }
+    return text;
+}
+
+// Lists at most 16 labels with their names and shares.
+std::string labels_text(const Json& labels) {
+    constexpr std::size_t most_entries = 16;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(labels.size(), most_entries); ++i) {
+        const std::string name = printable(labels[i].value("name", std::string()));
+        text += fmt::format("{}{}{}{} ({:.3g} %)", i == 0 ? "" : ", ", labels[i]["number"].dump(),
+                            name.empty() ? "" : " ", name, 100 * labels[i]["share"].get<double>());
+    }
+    return labels.size() > most_entries ? fmt::format("{}, ... {} in all", text, labels.size())
+                                        : text;
+}
+
+// Has at most 16 rows.
+std::string histogram_text(const Json& histogram) {
+    const auto edges = histogram["edges"].get<std::vector<double>>();
+    const auto counts = histogram["counts"].get<std::vector<std::int64_t>>();
+    // Each row has `together` intervals, the last one maybe fewer.
+    const std::size_t together = (counts.size() + most_rows - 1) / most_rows;
+    std::vector<std::int64_t> sums;
+    std::vector<std::string> ends{row_end(edges, 0)};
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (i % together == 0) sums.push_back(0);
+        sums.back() += counts[i];
+        if ((i + 1) % together == 0 || i + 1 == counts.size())
+            ends.push_back(row_end(edges, i + 1));
+    }
+    const auto most = static_cast<double>(*std::max_element(sums.begin(), sums.end()));
+    const auto all = static_cast<double>(std::accumulate(sums.begin(), sums.end(), std::int64_t{}));
+    std::size_t width = narrowest_end;
+    for (const std::string& end : ends) width = std::max(width, end.size());
+    std::string text = "(# is the logarithm of the count)\n";
+    for (std::size_t row = 0; row < sums.size(); ++row) {
+        const auto sum = static_cast<double>(sums[row]);
+        const auto letters =
+            static_cast<std::size_t>(std::lround(bar_letters * std::log1p(sum) / std::log1p(most)));
+        text += fmt::format("  {:>{}} .. {:<{}} {:>7.3f} % {}\n", ends[row], width, ends[row + 1],
+                            width, 100 * sum / all, std::string(letters, '#'));
+    }
+    return text;
+}
+
+// Returns the entry of a list as people read it: "1", "1 DAPI", "2 512x512x64".
+std::string entry_text(std::size_t number, const Json& entry) {
+    if (entry.is_array())
+        return fmt::format("{} {}x{}x{}", number, entry[0].dump(), entry[1].dump(),
+                           entry[2].dump());
+    const auto name = printable(entry.get<std::string>());
+    return name.empty() ? std::to_string(number) : fmt::format("{} {}", number, name);
+}
+
+// Returns the row of a table for the lists "arrays", "channels", "times" and "levels" of a report:
+// what there is to choose from, and how. Empty if there is nothing to choose.
+std::string choice_text(const std::string& key, const Json& list, const std::string& kind) {
+    constexpr std::size_t most_entries = 16;
+    if (list.size() < 2) return {};
+    std::string text;
+    for (std::size_t i = 0; i < std::min(list.size(), most_entries); ++i) {
+        text += i == 0 ? "" : ", ";
+        if (key != "arrays")
+            text += entry_text(i, list[i]);
+        else
+            text += list[i] == "" ? "\"\"" : printable(list[i].get<std::string>());
+    }
+    if (list.size() > most_entries) text += fmt::format(", ... {} in all", list.size());
+    return fmt::format("{} (choose by --set {}.{}={})", text, kind, key.substr(0, key.size() - 1),
+                       key == "arrays" ? "NAME" : "NUMBER");
+}
 
 std::string text_of(const std::string& key, const Json& value) {
     if (value.is_string()) return printable(value.get<std::string>());
@@ -64,15 +152,10 @@ std::string table_text(const Json& info) {
     return text;
 }
 
-// The part of a file that --set and --raw choose.
-struct Choice {
-    VolumeRequest of_volume;
-    std::int64_t time_of_mesh = 0;
-};
-
-// Throws UsageError if --set has other keys than those that choose a part of the file.
-Choice choice_of(const InfoOptions& options, const VolumeRequest& raw) {
-    if (options.settings.empty()) return {raw};
+// Returns the part of a file that --set and --raw choose. Throws UsageError if --set has other
+// keys.
+VolumeRequest choice_of(const InfoOptions& options, const VolumeRequest& raw) {
+    if (options.settings.empty()) return raw;
     for (const std::string& setting : options.settings) {
         const std::string key = setting.substr(0, setting.find('='));
         if (key == "volume.path" || !(key.starts_with("volume.") || key == "mesh.time")) {
@@ -84,32 +167,23 @@ Choice choice_of(const InfoOptions& options, const VolumeRequest& raw) {
     }
     nlohmann::json document;
     const Scene scene = load_scene({options.file, options.settings, {}, options.raw}, {}, document);
-    if (const auto* const volume = std::get_if<VolumeFile>(&scene.volume))
-        return {volume->selection};
-    return {{}, scene.mesh_file() == nullptr ? 0 : scene.mesh_file()->time};
+    if (const VolumeFile* const volume = scene.volume_file()) return volume->selection;
+    VolumeRequest step;
+    if (scene.mesh_file() != nullptr) step.time = scene.mesh_file()->time;
+    return step;
 }
 
 void run(const InfoOptions& options) {
     if (!options.png.empty() && std::filesystem::path(options.png).extension() != ".png") {
         throw UsageError(fmt::format("--png {}: expected a name that ends in .png", options.png));
     }
-    const VolumeRequest request = request_of(options.raw);
-    if (!request.raw) expect_no_foreign_mesh(options.file);
-    const bool volume = request.raw || is_volume_file(options.file);
-    if (!volume && !is_mesh_file(options.file)) {
-        expect_no_folder(options.file);
-        expect_no_foreign_file(options.file);
-        fail(
-            "{}: unknown kind of file: expected a volume ({}) or a mesh (.vtu, .pvtu, .pvd, .vtk, "
-            ".node, .ele)",
-            options.file, volume_format_names());
-    }
-    const Choice choice = choice_of(options, request);
+    const VolumeRequest raw = request_of(options.raw);
+    const bool is_volume = is_volume_data(options.file, raw);
+    const VolumeRequest request = choice_of(options, raw);
     expect_different_files(
-        volume ? files_of_volume(options.file, choice.of_volume) : files_of_mesh(options.file),
+        is_volume ? files_of_volume(options.file, request) : files_of_mesh(options.file),
         {options.png});
-    const Json info = volume ? report_on_volume(options.file, options.png, choice.of_volume)
-                             : report_on_mesh(options.file, options.png, choice.time_of_mesh);
+    const Json info = file_report(options.file, request, options.png);
     write_result(options.json ? json_text(info, 2) + "\n" : table_text(info));
 }
 

@@ -153,6 +153,23 @@ def labels(h5py, cases, write, add, bad):
             group[name] = np.arange(count) * step
             group[name].attrs["units"] = unit
     add("nexus.h5", array, diagonal(.5, .25, 2), unit="mm")
+    with h5py.File(cases.path("signal.nxs"), "w") as file:
+        for word in ("counts", "errors"):
+            file[f"entry/data/{word}"] = array + (word == "errors")
+        file["entry/data"].attrs["signal"] = "counts"
+    add("signal.nxs", array, warnings=["array /entry/data/counts of 2 is taken, the signal of its group (NeXus)"],
+        contents={"arrays": ["/entry/data/counts", "/entry/data/errors"]})
+    add("signal.nxs", array + 1, array="/entry/data/errors")
+    # gridUnitSI is a word for mm, or makes metres; values lie in the middles of cells along x.
+    for file, unit, length, word in (("openpmd", 1e-3, 1, "mm"), ("openpmd_metres", 2, 2, "m")):
+        with h5py.File(cases.path(f"{file}.h5"), "w") as out:
+            out.attrs["openPMD"] = "1.1.0"
+            out["data/100/meshes/rho"] = array
+            out["data/100/meshes/rho"].attrs.update({
+                "axisLabels": [b"z", b"y", b"x"], "gridSpacing": [2.5, .75, .5], "gridGlobalOffset": [3., 2., 1.],
+                "gridUnitSI": unit, "unitSI": 4., "position": [0., 0., .5]})
+        add(f"{file}.h5", array, diagonal(.5, .75, 2.5) * length, (1.25 * length, 2 * length, 3 * length), word,
+            warnings=["unitSI 4: values are as they are stored"])
     with h5py.File(cases.path("a.emd"), "w") as file:
         group = file.create_group("data/raw")
         group.attrs["emd_group_type"] = 1

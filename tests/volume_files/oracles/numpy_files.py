@@ -69,6 +69,14 @@ def unnamed_axes(cases):
                                ("object", np.array([[[None, 1]]], dtype=object), "'|O'")):
         np.save(cases.path(f"{name}.npy"), array, allow_pickle=True)
         cases.refuse(f"{name}.npy", "found " + found)
+    for name, array, *words in (("complex", None, "complex numbers"), ("object", None, "Python objects"),
+                                ("text", np.full((2, 3, 4), "ab"), "this is text"),
+                                ("date", np.zeros((2, 3, 4), "M8[s]"), "dates and times"),
+                                ("record", np.zeros((2, 3, 4), [("a", "f4"), ("b", "i2")]), "records", '["NAME"]'),
+                                ("long", np.zeros((2, 3, 4), np.longdouble), 'array.astype("f8")')):
+        if array is not None:
+            np.save(cases.path(f"{name}.npy"), array)
+        cases.refuse(f"{name}.npy", *words)
 
 
 def archives(cases):

@@ -2,6 +2,7 @@
 """TIFF files whose pages mean something: descriptions by OME, ImageJ and tifffile."""
 import os
 import re
+import struct
 
 import numpy as np
 
@@ -276,8 +277,52 @@ def others(cases, tifffile):
                 os.remove(cases.path(file))
                 continue
             cases.add(file, half.astype(np.float32))
+    bitwise(cases, tifffile)
     tifffile.imwrite(cases.path("complex.tif"), np.zeros((4, 10, 12), "c8"), photometric="minisblack")
     cases.refuse("complex.tif", "found samples that are complex numbers of 64 bits")
+
+
+def bitwise(cases, tifffile):
+    """Samples of 1 to 31 bits, whose rows begin with a byte, in strips and tiles; and compressions by name."""
+    for bits, kind in ((1, "uint8"), (3, "uint8"), (4, "uint8"), (10, "uint16"), (12, "uint16"), (14, "uint16")):
+        values = values_of("uint16", (2, 7, 13), seed=bits) % (1 << bits)
+
+        def packed(rows):
+            digits = (rows[..., None] >> np.arange(bits)[::-1] & 1).reshape(*rows.shape[:-1], -1)
+            return np.packbits(digits.astype(np.uint8), axis=-1)
+        for label in ("strips", "tiles"):
+            pages = np.zeros((2, 16, 16), "uint16")
+            pages[:, :7, :13] = values
+            stored = packed(pages if label == "tiles" else values)
+            file = cases.path(f"bits{bits}_{label}.tif")
+            tags = {256: 13, 257: 7, 258: bits, 259: 1, 262: 1, 277: 1}
+            tags.update({322: 16, 323: 16} if label == "tiles" else {278: 7})
+            write_pages(file, tags, [page.tobytes() for page in stored])
+            cases.add(f"bits{bits}_{label}.tif", values.astype(kind))
+    for number, name in ((34712, "JPEG 2000"), (34887, "LERC"), (50002, "JPEG XL"), (60001, "unknown")):
+        write_pages(cases.path(f"code{number}.tif"), {256: 2, 257: 2, 258: 8, 259: number, 262: 1, 277: 1, 278: 2},
+                    [b"1234"] * 2)
+        if number != 34887:  # some builds of libtiff have it
+            cases.refuse(f"code{number}.tif", f"compressed as {name} (compression {number})", "Fiji or tifffile")
+
+
+def write_pages(file, tags, pages):
+    """Writes pages of one strip or tile each, all with the same tags, by TIFF 6.0."""
+    places = (324, 325) if 322 in tags else (273, 279)
+    out = bytearray(struct.pack("<2sHI", b"II", 42, 0))
+    before = 4
+    for page in pages:
+        begin = len(out)
+        out += page + b"\0" * (len(page) % 2)
+        struct.pack_into("<I", out, before, len(out))
+        entries = {**tags, places[0]: begin, places[1]: len(page)}
+        out += struct.pack("<H", len(entries))
+        for tag in sorted(entries):
+            out += struct.pack("<HHII", tag, 4 if tag in places else 3, 1, entries[tag])
+        before = len(out)
+        out += struct.pack("<I", 0)
+    with open(file, "wb") as stream:
+        stream.write(out)
 
 
 def folders(cases, tifffile):

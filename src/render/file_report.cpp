@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "file_report.h"
+#include "render/file_report.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
-#include <numeric>
 #include <optional>
 
 #include "base/error.h"
@@ -14,12 +14,14 @@
 #include "base/output_file.h"
 #include "choice/field.h"
 #include "image/png.h"
+#include "lamina/scene.h"
 #include "mesh/mesh_picture.h"
 #include "mesh/mesh_shape.h"
 #include "mesh/tet_mesh.h"
 #include "mesh_files/mesh_file.h"
 #include "volume/middle_slices.h"
 #include "volume/min_max_bricks.h"
+#include "volume/value_statistics.h"
 #include "volume/volume_data.h"
 #include "volume_files/volume_file.h"
 
@@ -28,15 +30,28 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_rows = 16;
-constexpr int bar_letters = 40, narrowest_picture = 480;
-constexpr std::size_t narrowest_end = 8;
+constexpr int narrowest_picture = 480;
+constexpr int panel_side = 480;  // pixels
 
-std::string row_end(const std::vector<double>& edges, std::size_t number) {
-    return number_text(edges[number], fineness_of(edges.front(), edges.back()), 5);
+Json json_vector(const glm::dvec3& vector) {
+    return Json::array({vector.x, vector.y, vector.z});
 }
 
-constexpr int panel_side = 480;  // pixels
+// Adds the keys "percentiles" {"0.1": value, ...} and "histogram" {edges, counts}; both are null if
+// there is no finite value.
+void add_statistics(const ValueStatistics& statistics, Json& info) {
+    info["percentiles"] = nullptr;
+    info["histogram"] = nullptr;
+    if (statistics.percentiles.empty()) return;
+    Json percentiles = Json::object();
+    for (std::size_t i = 0; i < statistics.percentiles.size(); ++i) {
+        const std::string name = fmt::format("{:g}", 0.1 * ValueStatistics::places[i]);
+        percentiles[name] = statistics.percentiles[i];
+    }
+    info["percentiles"] = percentiles;
+    info["histogram"] = {{"edges", statistics.histogram.edges},
+                         {"counts", statistics.histogram.counts}};
+}
 
 // `mesh`: counts the faces at which scalars of points jump; null: scalars of cells.
 Json describe(std::span<const MeshScalar> scalars, const TetMesh* mesh) {
@@ -88,6 +103,18 @@ Json describe(const TetMesh& mesh, const MeshScalar* drawn, const ValueStatistic
     info["merged_points"] = findings.cells.merged_points;
     add_statistics(statistics, info);
     return info;
+}
+
+// Returns `above` on white, and under it the picture below(width). `width` is that of `above`, but
+// at least 480 pixels.
+CodedImage above_one_another(const CodedImage& above, const std::function<CodedImage(int)>& below) {
+    const int width = std::max(above.width, narrowest_picture);
+    const CodedImage second = below(width);
+    CodedImage image(width, above.height + second.height, 3, 8);
+    fill_rectangle(image, 0, 0, image.width, image.height, {255, 255, 255});
+    copy_into(image, above, 0, 0);
+    copy_into(image, second, 0, above.height);
+    return image;
 }
 
 // Returns the scalar that is drawn if a scene names none: the first at points, or the only array of
@@ -167,116 +194,13 @@ Json describe(const VolumeData& data, const VolumeContents& contents,
     return info;
 }
 
-// Returns the entry of a list as people read it: "1", "1 DAPI", "2 512x512x64".
-std::string entry_text(std::size_t number, const Json& entry) {
-    if (entry.is_array())
-        return fmt::format("{} {}x{}x{}", number, entry[0].dump(), entry[1].dump(),
-                           entry[2].dump());
-    const auto name = printable(entry.get<std::string>());
-    return name.empty() ? std::to_string(number) : fmt::format("{} {}", number, name);
-}
-
 CodedImage picture_of(const Volume& volume, const ValueRange& range,
                       const ValueStatistics& statistics) {
     return above_one_another(middle_slices(volume, range),
                              [&](int width) { return histogram_picture(statistics, width); });
 }
 
-}  // namespace
-
-void add_statistics(const ValueStatistics& statistics, Json& info) {
-    info["percentiles"] = nullptr;
-    info["histogram"] = nullptr;
-    if (statistics.percentiles.empty()) return;
-    Json percentiles = Json::object();
-    for (std::size_t i = 0; i < statistics.percentiles.size(); ++i) {
-        const std::string name = fmt::format("{:g}", 0.1 * ValueStatistics::places[i]);
-        percentiles[name] = statistics.percentiles[i];
-    }
-    info["percentiles"] = percentiles;
-    info["histogram"] = {{"edges", statistics.histogram.edges},
-                         {"counts", statistics.histogram.counts}};
-}
-
-std::string percentiles_text(const Json& percentiles) {
-    const double fineness =
-        fineness_of(percentiles.front().get<double>(), percentiles.back().get<double>());
-    std::string text;
-    for (const auto& [name, value] : percentiles.items()) {
-        text += fmt::format("{}{} %: {}", text.empty() ? "" : ", ", name,
-                            number_text(value.get<double>(), fineness, 6));
-    }
-    return text;
-}
-
-std::string choice_text(const std::string& key, const Json& list, const std::string& kind) {
-    constexpr std::size_t most_entries = 16;
-    if (list.size() < 2) return {};
-    std::string text;
-    for (std::size_t i = 0; i < std::min(list.size(), most_entries); ++i) {
-        text += i == 0 ? "" : ", ";
-        if (key != "arrays")
-            text += entry_text(i, list[i]);
-        else
-            text += list[i] == "" ? "\"\"" : printable(list[i].get<std::string>());
-    }
-    if (list.size() > most_entries) text += fmt::format(", ... {} in all", list.size());
-    return fmt::format("{} (choose by --set {}.{}={})", text, kind, key.substr(0, key.size() - 1),
-                       key == "arrays" ? "NAME" : "NUMBER");
-}
-
-std::string labels_text(const Json& labels) {
-    constexpr std::size_t most_entries = 16;
-    std::string text;
-    for (std::size_t i = 0; i < std::min(labels.size(), most_entries); ++i) {
-        const std::string name = printable(labels[i].value("name", std::string()));
-        text += fmt::format("{}{}{}{} ({:.3g} %)", i == 0 ? "" : ", ", labels[i]["number"].dump(),
-                            name.empty() ? "" : " ", name, 100 * labels[i]["share"].get<double>());
-    }
-    return labels.size() > most_entries ? fmt::format("{}, ... {} in all", text, labels.size())
-                                        : text;
-}
-
-std::string histogram_text(const Json& histogram) {
-    const auto edges = histogram["edges"].get<std::vector<double>>();
-    const auto counts = histogram["counts"].get<std::vector<std::int64_t>>();
-    // Each row has `together` intervals, the last one maybe fewer.
-    const std::size_t together = (counts.size() + most_rows - 1) / most_rows;
-    std::vector<std::int64_t> sums;
-    std::vector<std::string> ends{row_end(edges, 0)};
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        if (i % together == 0) sums.push_back(0);
-        sums.back() += counts[i];
-        if ((i + 1) % together == 0 || i + 1 == counts.size())
-            ends.push_back(row_end(edges, i + 1));
-    }
-    const auto most = static_cast<double>(*std::max_element(sums.begin(), sums.end()));
-    const auto all = static_cast<double>(std::accumulate(sums.begin(), sums.end(), std::int64_t{}));
-    std::size_t width = narrowest_end;
-    for (const std::string& end : ends) width = std::max(width, end.size());
-    std::string text = "(# is the logarithm of the count)\n";
-    for (std::size_t row = 0; row < sums.size(); ++row) {
-        const auto sum = static_cast<double>(sums[row]);
-        const auto letters =
-            static_cast<std::size_t>(std::lround(bar_letters * std::log1p(sum) / std::log1p(most)));
-        text += fmt::format("  {:>{}} .. {:<{}} {:>7.3f} % {}\n", ends[row], width, ends[row + 1],
-                            width, 100 * sum / all, std::string(letters, '#'));
-    }
-    return text;
-}
-
-CodedImage above_one_another(const CodedImage& above, const std::function<CodedImage(int)>& below) {
-    const int width = std::max(above.width, narrowest_picture);
-    const CodedImage second = below(width);
-    CodedImage image(width, above.height + second.height, 3, 8);
-    fill_rectangle(image, 0, 0, image.width, image.height, {255, 255, 255});
-    copy_into(image, above, 0, 0);
-    copy_into(image, second, 0, above.height);
-    return image;
-}
-
-nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string& png,
-                                      std::int64_t time) {
+Json report_on_mesh(const std::string& file, const std::string& png, std::int64_t time) {
     std::optional<AtomicFile> picture;  // opened first: an unwritable path fails at once
     if (!png.empty()) picture.emplace(png);
     MeshData data = read_mesh(file, time);
@@ -295,8 +219,8 @@ nlohmann::ordered_json report_on_mesh(const std::string& file, const std::string
     return info;
 }
 
-nlohmann::ordered_json report_on_volume(const std::string& file, const std::string& png,
-                                        const VolumeRequest& request) {
+Json report_on_volume(const std::string& file, const std::string& png,
+                      const VolumeRequest& request) {
     std::optional<AtomicFile> picture;  // opened first: an unwritable path fails at once
     if (!png.empty()) picture.emplace(png);
     VolumeContents contents;
@@ -308,6 +232,19 @@ nlohmann::ordered_json report_on_volume(const std::string& file, const std::stri
         picture->commit();
     }
     return describe(data, contents, statistics);
+}
+
+}  // namespace
+
+bool is_volume_data(const std::string& file, const VolumeRequest& request) {
+    const FileKind kind = request.raw ? FileKind::volume : kind_of_file(file);
+    if (kind == FileKind::scene) fail("{}: holds a scene, expected a volume or a mesh", file);
+    return kind == FileKind::volume;
+}
+
+Json file_report(const std::string& file, const VolumeRequest& request, const std::string& png) {
+    if (is_volume_data(file, request)) return report_on_volume(file, png, request);
+    return report_on_mesh(file, png, request.time.value_or(0));
 }
 
 }  // namespace lamina
