@@ -99,6 +99,8 @@ void run(const InfoOptions& options) {
     if (!volume && !is_mesh_file(options.file)) {
         expect_no_folder(options.file);
         expect_no_foreign_file(options.file);
+        std::error_code unknown;
+        if (!std::filesystem::exists(options.file, unknown)) fail("{}: no such file", options.file);
         fail(
             "{}: unknown kind of file: expected a volume ({}) or a mesh (.vtu, .pvtu, .pvd, .vtk, "
             ".node, .ele)",

@@ -322,11 +322,20 @@ std::vector<std::string> settings_of(const ViewOptions& options) {
     if (!options.size.empty()) {
         const auto [width, height] =
             pair_of<int>("--size", options.size, 'x', "WxH in pixels, as in 800x600");
+        if (width < 1 || height < 1) {
+            throw UsageError(fmt::format("--size {}: expected 1 pixel or more each, as in 800x600",
+                                         options.size));
+        }
         settings.push_back(fmt::format("image.width={}", width));
         settings.push_back(fmt::format("image.height={}", height));
     }
     if (!options.background.empty()) settings.push_back("image.background=" + options.background);
     if (options.transparent) settings.emplace_back("image.transparent=true");
+    if (options.transparent && !options.background.empty()) {
+        warn(
+            "--transparent: there is no background; --background only says whether annotations are "
+            "dark or light");
+    }
     const auto add = [&](const char* key, const std::string& value) {
         settings.push_back(fmt::format("image.annotations.{}={}", key, value));
     };
