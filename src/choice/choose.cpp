@@ -342,8 +342,9 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
              name_of_data(scene));
     }
     if (!adjustments.map_in_hu.empty()) {
-        expect_hounsfield_units(field.range(), *adjustments.transfer.colormap,
-                                adjustments.map_in_hu, name_of_data(scene));
+        if (const auto mistake = mistake_in_hounsfield_units(
+                field.range(), *adjustments.transfer.colormap, adjustments.map_in_hu))
+            fail("{}: {}", name_of_data(scene), *mistake);
     }
     const bool chooses_function = scene.transfer_function.is_automatic();
     const bool chooses_camera = scene.camera.is_automatic() || adjustments.up || adjustments.side;

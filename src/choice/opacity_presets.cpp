@@ -138,17 +138,18 @@ std::span<const Preset> presets() {
     return all;
 }
 
-void expect_hounsfield_units(const ValueRange& range, const Colormap& colormap,
-                             const std::string& name, const std::string& data) {
-    const std::string found =
-        fmt::format("{}: found values from {:.6g} to {:.6g}", data, range.lo, range.hi);
+std::optional<std::string> mistake_in_hounsfield_units(const ValueRange& range,
+                                                       const Colormap& colormap,
+                                                       const std::string& name) {
+    const std::string found = fmt::format("found values from {:.6g} to {:.6g}, expected HU for {}",
+                                          range.lo, range.hi, name);
     const std::string hint = fmt::format(
-        "a range LO,HI (--range; in Python clim) says which values stand for {:.6g} and {:.6g} HU "
-        "(0,4095 for HU + 1024)",
+        "a range LO,HI (--range; in Python clim; in a scene colormap_range) says which values "
+        "stand for {:.6g} and {:.6g} HU (0,4095 for HU + 1024)",
         colormap.colors.front().value, colormap.colors.back().value);
     if (range.lo >= 0) {
-        fail("{}, expected HU for {}: none is below 0, but air is -1000 HU and fat -100; {}", found,
-             name, hint);
+        return fmt::format("{}: none is below 0, but air is -1000 HU and fat -100; {}", found,
+                           hint);
     }
     ValueRange shows;
     for (const OpacityPoint& point : colormap.opacities) {
@@ -157,9 +158,8 @@ void expect_hounsfield_units(const ValueRange& range, const Colormap& colormap,
                                   : ValueRange{std::min(shows.lo, point.value),
                                                std::max(shows.hi, point.value)};
     }
-    if (shows.empty() || (range.hi >= shows.lo && range.lo <= shows.hi)) return;
-    fail("{}, expected HU for {}, which shows {:.6g} to {:.6g} HU; {}", found, name, shows.lo,
-         shows.hi, hint);
+    if (shows.empty() || (range.hi >= shows.lo && range.lo <= shows.hi)) return std::nullopt;
+    return fmt::format("{}, which shows {:.6g} to {:.6g} HU; {}", found, shows.lo, shows.hi, hint);
 }
 
 }  // namespace lamina

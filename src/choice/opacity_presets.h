@@ -55,9 +55,10 @@ struct Preset {
 
 std::span<const Preset> presets();
 
-// Throws Error if data of this range cannot be in HU, or if the colour map `name`
-// shows none of them.
-void expect_hounsfield_units(const ValueRange& range, const Colormap& colormap,
-                             const std::string& name, const std::string& data);
+// Says why data of this range cannot be in HU, or that the colour map `name` shows none of them,
+// and what helps. Nothing if they can.
+std::optional<std::string> mistake_in_hounsfield_units(const ValueRange& range,
+                                                       const Colormap& colormap,
+                                                       const std::string& name);
 
 }  // namespace lamina

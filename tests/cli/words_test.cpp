@@ -152,6 +152,29 @@ TEST_F(WordsRun, TransparencyWinsOverABackgroundAndSaysSo) {
     EXPECT_EQ(read_png(folder / "x.png").codes[3], 0);
 }
 
+// A scene that names a map in HU itself draws as it says, with the reason why that may be wrong.
+TEST_F(WordsRun, AMapInHuOfASceneIsWarnedOfIfTheDataAreNotInHu) {
+    const auto said = [&](const json& transfer_function, const std::vector<std::string>& more) {
+        json document = {{"version", 1}, {"volume", "v.nrrd"}};
+        document["transfer_function"] = transfer_function;
+        write_bytes_to(folder / "s.json", document.dump());
+        std::vector<std::string> arguments{"render",         folder / "s.json", "-o",
+                                           folder / "x.png", "--size",          "20x15"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = lamina_run(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result.err;
+    };
+    const char* const reason = "s.json: transfer_function.colormap: found values from 0 to";
+    EXPECT_NE(said({{"colormap", "ct-bone"}}, {}).find(reason), std::string::npos);
+    EXPECT_NE(said({{"colormap", "ct-bone"}}, {"--density", "2"}).find(reason), std::string::npos);
+    for (const std::string& fine :
+         {said({{"colormap", "ct-bone"}, {"colormap_range", {0, 255}}}, {}),
+          said({{"colormap", "ct-bone"}}, {"--colormap", "greys"}),
+          said({{"colormap", "viridis"}, {"points", {{{"value", 0}, {"extinction", 1}}}}}, {})})
+        EXPECT_EQ(fine.find("HU"), std::string::npos) << fine;
+}
+
 TEST_F(WordsRun, ForAnnotationsKeepWhatTheSceneSaysOfThem) {
     const std::vector<std::string> own{
         "--set",
