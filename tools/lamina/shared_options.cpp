@@ -256,7 +256,8 @@ void add_color_words(CLI::App& verb, Words& words) {
         ->allow_extra_args(false);
     add_word(verb, "--opacity", words.opacity, "NAME",
              "How opacity grows over the values that show: linear, geom, sigmoid, sigmoid_1 to "
-             "sigmoid_20, foreground; linear_r and geom_r fall");
+             "sigmoid_20, foreground; linear_r and geom_r fall; or numbers from 0 to 1, as 0,.2,.9 "
+             "spread evenly or 10:0,20:.5 at values");
     add_word(verb, "--preset", words.preset, "NAME",
              "Colours, opacity and light for a kind of data: ct-bone, ct-soft-tissue, ct-lung, "
              "ct-angio (all in HU), mr, microscopy");
