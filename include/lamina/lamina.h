@@ -6,6 +6,7 @@
 #include "lamina/camera.h"
 #include "lamina/color.h"
 #include "lamina/error.h"
+#include "lamina/film.h"
 #include "lamina/image.h"
 #include "lamina/info.h"
 #include "lamina/mesh.h"

@@ -17,7 +17,8 @@ A notebook shows ``picture``; ``picture.array`` has its numbers, ``picture.save(
 Data: ``Volume``, ``Mesh``, ``read``, ``info``, ``mesh``, ``Sampler`` (values and gradients at points).
 Looks: ``TransferFunction``, ``Camera``, ``Lighting``, ``Light``; everything else by the names that scene files have
 (``Scene``; types: ``Keywords``, ``Changes``, ``lamina.keywords``).
-Pictures: ``render``, ``trace``, ``Session`` (to change things and draw again), ``Picture``, ``Turntable``.
+Pictures: ``render``, ``trace``, ``Session`` (to change things and draw again), ``Picture``, ``Turntable``,
+``save_film``.
 Errors: ``compare``, ``Comparison``, ``study``, ``Study``.
 VTK: ``lamina.vtk`` takes over a ``vtkRenderer`` and holds its picture against the truth.
 
@@ -27,10 +28,12 @@ linear, associated RGBA with row 0 on top. What is wrong with data and scenes is
 """
 from typing import Any as _Any
 
+from . import _lamina
 from ._camera import Camera
 from ._comparison import Comparison, Norms, compare
 from ._drawing import render, trace
 from ._errors import Error, PictureWarning, PrecisionWarning
+from ._film import Turntable, save_film
 from ._lamina import version as __version__
 from .keywords import Changes, Keywords
 from ._lighting import Light, Lighting
@@ -42,15 +45,18 @@ from ._scene import Scene
 from ._session import Session
 from ._study import Study, study
 from ._transfer_function import TransferFunction
-from ._turntable import Turntable
 from ._volume import Volume
 
-colormaps = ("cividis", "cool-warm", "ct-angio", "ct-bone", "ct-lung", "ct-soft-tissue", "greys", "inferno", "viridis")
+colormaps = tuple(_lamina.colormap_names())
 
 __all__ = [
     "Camera", "Changes", "Comparison", "Error", "Keywords", "Light", "Lighting", "Mesh", "Norms", "Omission",
     "Picture", "PictureWarning", "Plan", "PrecisionWarning", "Sampler", "Scene", "Session", "Study", "TransferFunction",
+<<<<<<< HEAD
     "Turntable", "Volume", "colormaps", "compare", "info", "mesh", "read", "render", "study", "trace",
+=======
+    "Turntable", "Volume", "colormaps", "compare", "mesh", "read", "render", "save_film", "study", "trace",
+>>>>>>> b8ae2d19f9947b1969a6cf3df95b9b878e36d8ba
 ]
 
 for _name in __all__:

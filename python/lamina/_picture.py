@@ -123,9 +123,12 @@ class Picture:
         """Compares this picture with another one (a picture, an array, an EXR or NPY file): ``lamina.compare``."""
         return compare(self, other)
 
-    def _repr_png_(self) -> bytes:
+    def _png(self, bits: int) -> bytes:
         scene = self._drawn.scene
-        return _lamina.picture_png(self._drawn, self._array, scene.background, scene.transparent, 8, scene.color_space)
+        return _lamina.picture_png(self._drawn, self._array, scene.background, scene.transparent, bits, scene.color_space)
+
+    def _repr_png_(self) -> bytes:
+        return self._png(8)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
         return converted(self._array, dtype, copy)

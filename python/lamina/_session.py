@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, Callable, Mapping
 from . import _lamina
 from ._camera import Camera
 from ._errors import PictureWarning, warn
+from ._film import Turntable
 from ._picture import Picture
 from ._scene import Scene, scene_of
-from ._turntable import Turntable
 from ._volume import Path, Volume
 from ._watched import CHANGED, Watched
 from ._words import take_words
@@ -165,8 +165,8 @@ class Session:
 
     def turntable(self, views: int = 36, progress: Progress | None = None) -> Turntable:
         """Pictures from all around: ``views`` of them, the camera turned about its ``up`` by 360 / ``views`` degrees
-        from one to the next, the first from where it is. In a notebook the result moves. Afterwards the camera is where
-        it was, written out where it was automatic."""
+        from one to the next, the first from where it is. In a notebook the result moves; ``save`` makes a film of it.
+        Afterwards the camera is where it was, written out where it was automatic."""
         if views < 1:
             raise ValueError(f"views: found {views!r}, expected 1 or more")
         camera, pictures = self.camera, []

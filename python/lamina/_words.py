@@ -2,14 +2,22 @@
 """Words for what people change of a picture, as on the command line (docs/first-picture.md, "Changing it")."""
 from __future__ import annotations
 
+import json
 import os
 from typing import Any, Mapping
 
+import numpy as np
+
+from . import _lamina
 from ._conversion import shown
 
 # Keywords that are words, with the names that the library has for them.
 WORDS = {"azimuth": "azimuth", "elevation": "elevation", "zoom": "zoom", "density": "density", "up": "up", "view": "view",
          "light": "light", "crop": "crop", "opacity": "opacity", "preset": "preset", "cmap": "colormap", "clim": "range"}
+
+
+# matplotlib's maps of up to so many colours are qualitative.
+MOST_BANDS = 32
 
 
 def take_words(keywords: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -41,8 +49,10 @@ def _plain_word(name: str, value: Any) -> Any:
         return _box(value)
     if name == "light" and value is True:
         return "headlight"
-    if name == "cmap" and isinstance(value, os.PathLike):
-        return os.fspath(value)
+    if name == "cmap":
+        return _colormap(value)
+    if name == "opacity" and not isinstance(value, str):
+        return _opacity(value)
     if not isinstance(value, str):
         raise TypeError(f"{name}: found {shown(value)}, expected a word")
     return value
@@ -67,3 +77,39 @@ def _box(value: Any) -> str:
         raise TypeError(f"crop: found {shown(value)}, expected ((x0, x1), (y0, y1), (z0, z1))")
     ends = [[("" if end is None else _number("crop", end)) for end in _pair("crop", axis)] for axis in value]
     return ",".join(":".join(axis) for axis in ends)
+
+
+def _opacity(value: Any) -> str:
+    """The word for numbers spread evenly over the values that show, or for pairs (value, number)."""
+    try:
+        numbers = np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        numbers = np.empty(0)
+    if numbers.ndim == 1 and len(numbers) > 1:
+        return ",".join(repr(number) for number in numbers.tolist())
+    if numbers.ndim == 2 and numbers.shape[1] == 2 and len(numbers) > 1:
+        return ",".join(f"{at!r}:{number!r}" for at, number in numbers.tolist())
+    raise TypeError(f"opacity: found {shown(value)}, expected a word, two or more numbers, or pairs (value, number)")
+
+
+def _colormap(value: Any) -> str:
+    """The word for a map's name or file, or for a matplotlib object or name: then a ParaView preset as text."""
+    if isinstance(value, os.PathLike):
+        return str(os.fspath(value))
+    if isinstance(value, str):
+        if value in _lamina.colormap_names() or os.path.exists(value):
+            return value
+        try:
+            import matplotlib  # type: ignore[import]
+            value = matplotlib.colormaps[value]
+        except (ImportError, AttributeError, KeyError):
+            return str(value)  # the library says which names there are
+    count = getattr(value, "N", None)
+    if not callable(value) or not isinstance(count, int) or count < 1:
+        raise TypeError(f"cmap: found {shown(value)}, expected a name, a file or a matplotlib colormap")
+    # Many colours are points of lines between them; few are bands, as matplotlib shows them.
+    colors = np.asarray(value(np.arange(count)), dtype=float)[:, :3].tolist()
+    rows = [[(i + 0.5) / count, *color] for i, color in enumerate(colors)]
+    if count <= MOST_BANDS:
+        rows = [[edge / count, *color] for i, color in enumerate(colors) for edge in (i, i + 1)]
+    return json.dumps({"ColorSpace": "RGB", "RGBPoints": [number for row in rows for number in row]})

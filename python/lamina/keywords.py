@@ -507,10 +507,10 @@ class Keywords(TypedDict, total=False):
     - ``zoom``: Factor on the size of things in the picture.
     - ``light``: Lights; True is a headlight.
     - ``opacity``: How opacity grows over the values that show: linear, geom, sigmoid, sigmoid_1 to sigmoid_20,
-      foreground, linear_r, geom_r.
+      foreground, linear_r, geom_r; numbers from 0 to 1 spread evenly; or pairs (value, number).
     - ``preset``: Colours, opacity and light for a kind of data: ct-bone, ct-soft-tissue, ct-lung, ct-angio, mr,
       microscopy.
-    - ``cmap``: Colours: a map's name or file.
+    - ``cmap``: Colours: a map's name or file, or a matplotlib colormap or its name.
     - ``clim``: (low, high): the values that show.
     - ``density``: Factor on the extinction.
     """
@@ -545,9 +545,9 @@ class Keywords(TypedDict, total=False):
     elevation: Union[float, None]
     zoom: Union[float, None]
     light: Union[Literal[True, "headlight", "left", "right", "two"], None]
-    opacity: Union[str, None]
+    opacity: Union[str, Sequence[Any], np.ndarray, None]
     preset: Union[str, None]
-    cmap: Union[str, os.PathLike[str], None]
+    cmap: Union[Any, None]
     clim: Union[Vector, None]
     density: Union[float, None]
 

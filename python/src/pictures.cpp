@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <map>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "bindings.h"
 #include "drawn.h"
 #include "shared_array.h"
 #include "vectors.h"
+#include "waiting.h"
 
 namespace lamina::python {
 namespace {
@@ -87,6 +92,24 @@ py::bytes difference(const Pixels& a, const Pixels& b, double range) {
     return difference_png(image_of<double>(a), image_of<double>(b), range);
 }
 
+std::vector<std::string> texts_of(const std::vector<py::bytes>& frames) {
+    return {frames.begin(), frames.end()};
+}
+
+void film_saved(const std::vector<py::bytes>& frames, const std::filesystem::path& file, int rate,
+                const py::object& progress) {
+    const std::vector<std::string> pngs = texts_of(frames);
+    run_waiting(
+        [&](std::stop_token stop, const ProgressCallback& said) {
+            save_film(pngs, file, rate, std::move(stop), said);
+        },
+        progress);
+}
+
+py::bytes animated(const std::vector<py::bytes>& frames, int rate) {
+    return animated_png(texts_of(frames), rate);
+}
+
 // (pixels, color space or None)
 py::tuple loaded(const std::filesystem::path& file) {
     LoadedPicture picture;
@@ -104,6 +127,7 @@ py::tuple loaded(const std::filesystem::path& file) {
 }  // namespace
 
 void bind_pictures(py::module_& module) {
+    module.def("colormap_names", &colormap_names);
     module.def("save_picture", &save, py::arg("drawn"), py::arg("pixels"), py::arg("file"),
                py::arg("background"), py::arg("transparent"), py::arg("bits"), py::arg("space"),
                py::arg("attributes"));
@@ -112,6 +136,9 @@ void bind_pictures(py::module_& module) {
     module.def("compare", &compared, py::arg("a"), py::arg("b"));
     module.def("compare_files", &files_compared, py::arg("a"), py::arg("b"));
     module.def("difference_png", &difference, py::arg("a"), py::arg("b"), py::arg("range"));
+    module.def("save_film", &film_saved, py::arg("frames"), py::arg("file"), py::arg("rate"),
+               py::arg("progress"));
+    module.def("animated_png", &animated, py::arg("frames"), py::arg("rate"));
     module.def("load_picture", &loaded, py::arg("file"));
 }
 

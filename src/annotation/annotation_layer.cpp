@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "annotation/annotation_layer.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "annotation/color_bar.h"
@@ -47,27 +48,44 @@ void check(const Annotations& annotations) {
     });
 }
 
+// Ranks of blocks (docs/annotations.md, "Small pictures").
+enum Rank { title_rank, colors_rank, scale_rank, axes_rank, texts_rank };
+
 // Makes the blocks of a scene in the order in which those of one place stand.
 std::vector<Block> blocks_of(Pen& pen, const Scene& scene, const AnnotatedData& data) {
     const Annotations& wanted = scene.annotations;
     const double em = pen.style.em;
     std::vector<Block> blocks;
+    const auto add = [&](Rank rank, Block block) {
+        block.rank = rank;
+        blocks.push_back(std::move(block));
+    };
     if (wanted.title) {
-        blocks.push_back(text_block(pen, *wanted.title, title_size * em * wanted.title->size,
-                                    "image.annotations.title", AnnotationPosition::top));
+        add(title_rank, text_block(pen, *wanted.title, title_size * em * wanted.title->size,
+                                   "image.annotations.title", AnnotationPosition::top));
     }
-    const bool both = wanted.colorbar && wanted.labels;
-    if (wanted.colorbar && !(both && data.are_labels))
-        blocks.push_back(color_bar(pen, *wanted.colorbar, scene, data).block);
-    if (wanted.labels && data.are_labels)
-        blocks.push_back(label_legend(pen, *wanted.labels, scene, data));
-    if (wanted.scale_bar) blocks.push_back(scale_bar(pen, *wanted.scale_bar, scene, data));
-    if (wanted.axes) blocks.push_back(axes_triad(pen, *wanted.axes, scene, data));
+    const std::size_t after_title = blocks.size();
+    if (wanted.scale_bar) add(scale_rank, scale_bar(pen, *wanted.scale_bar, scene, data));
+    if (wanted.axes) add(axes_rank, axes_triad(pen, *wanted.axes, scene, data));
     for (std::size_t i = 0; i < wanted.texts.size(); ++i) {
-        blocks.push_back(text_block(pen, wanted.texts[i], em * wanted.texts[i].size,
-                                    fmt::format("image.annotations.texts.{}", i),
-                                    AnnotationPosition::bottom_left));
+        add(texts_rank, text_block(pen, wanted.texts[i], em * wanted.texts[i].size,
+                                   fmt::format("image.annotations.texts.{}", i),
+                                   AnnotationPosition::bottom_left));
     }
+    std::vector<Block> colors;
+    const auto height = [&](const Annotation& of) {
+        return free_height(blocks, of.position.value_or(AnnotationPosition::right), pen.style);
+    };
+    const bool both = wanted.colorbar && wanted.labels;
+    if (wanted.colorbar && !(both && data.are_labels)) {
+        colors.push_back(
+            color_bar(pen, *wanted.colorbar, scene, data, height(*wanted.colorbar)).block);
+    }
+    if (wanted.labels && data.are_labels)
+        colors.push_back(label_legend(pen, *wanted.labels, scene, data, height(*wanted.labels)));
+    for (Block& block : colors) block.rank = colors_rank;
+    blocks.insert(blocks.begin() + static_cast<std::ptrdiff_t>(after_title),
+                  std::make_move_iterator(colors.begin()), std::make_move_iterator(colors.end()));
     return blocks;
 }
 
@@ -97,18 +115,13 @@ std::string code_points(const std::vector<char32_t>& characters) {
     return characters.size() > most ? text + ", ..." : text;
 }
 
-void warn_of_misfits(const std::vector<Block>& blocks, const std::vector<Rectangle>& places,
-                     const AnnotationStyle& style) {
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-        const Rectangle& place = places[i];
-        if (place.left >= 0 && place.top >= 0 && place.right() <= style.width &&
-            place.bottom() <= style.height)
-            continue;
-        warn(fmt::format(
-            "{}: takes {:.0f} x {:.0f} pixels of a picture of {} x {}, and is cut off; a smaller "
-            "\"size\" or a larger picture holds it",
-            blocks[i].key, place.width, place.height, style.width, style.height));
-    }
+void warn_of_misfits(const std::vector<std::string>& keys, const AnnotationStyle& style) {
+    if (keys.empty()) return;
+    warn(fmt::format(
+        "{}: a picture of {} x {} has no room for {} beside what is more important, "
+        "and {} left out; a smaller \"size\" or a larger picture holds {}",
+        fmt::join(keys, ", "), style.width, style.height, keys.size() == 1 ? "it" : "them",
+        keys.size() == 1 ? "it is" : "they are", keys.size() == 1 ? "it" : "them"));
 }
 
 // Reduces two opposite margins, so that the data keep at least two fifths of the picture.
@@ -129,7 +142,9 @@ PictureMargins annotation_margins(const Scene& scene, const AnnotatedData& data)
     Pen pen(style, font, nullptr);
     Scene open = scene;
     open.camera = automatic;
-    PictureMargins margins = margins_of(blocks_of(pen, open, data), style);
+    std::vector<Block> blocks = blocks_of(pen, open, data);
+    take_misfits(blocks, style);
+    PictureMargins margins = margins_of(blocks, style);
     if (scene.annotations.box) {  // numbers stand outside of it
         const double numbers = 2.5 * style.em * scene.annotations.box->size;
         for (double* const margin : {&margins.left, &margins.right, &margins.bottom})
@@ -162,13 +177,21 @@ std::shared_ptr<const Image> annotation_layer(const Scene& scene, const Annotate
         if (scene.annotations.box || shows(picture, plate))
             canvas.fill(plate, {style.paper, plate_opacity});
     };
-    if (scene.annotations.box) {
-        draw_box(pen, *scene.annotations.box, scene, data,
-                 [&](const Rectangle& place) { lay_plate(place, plate_margin / 4 * style.em); });
-    }
-    const std::vector<Block> blocks = blocks_of(pen, scene, data);
+    std::vector<Block> blocks = blocks_of(pen, scene, data);
+    warn_of_misfits(take_misfits(blocks, style), style);
     const std::vector<Rectangle> places = placed(blocks, style);
-    warn_of_misfits(blocks, places, style);
+    if (scene.annotations.box) {
+        std::vector<Rectangle> taken = places;
+        draw_box(pen, *scene.annotations.box, scene, data, [&](const std::vector<Rectangle>& at) {
+            for (const Rectangle& number : at) {
+                const auto hits = [&](const Rectangle& other) { return overlap(number, other); };
+                if (!style.holds(number) || std::ranges::any_of(taken, hits)) return false;
+            }
+            for (const Rectangle& number : at) lay_plate(number, plate_margin / 4 * style.em);
+            taken.insert(taken.end(), at.begin(), at.end());
+            return true;
+        });
+    }
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         lay_plate(places[i], plate_margin * style.em);
         blocks[i].draw(pen, {places[i].left, places[i].top});

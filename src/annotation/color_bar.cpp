@@ -154,28 +154,28 @@ void Bar::draw_numbers(Pen& pen, const glm::dvec2& at) const {
     }
 }
 
-// Sets numbers and the values at which they stand.
+// Sets numbers and the values at which they stand: two or more, one for data of a single value, or
+// none if two do not fit.
 void set_numbers(Bar& bar, const std::string& format) {
-    double step = 0;
-    if (bar.range.hi > bar.range.lo) {
-        const int most = static_cast<int>(bar.rows / (least_tick_distance * bar.em));
-        const Ticks ticks =
-            ticks_between(bar.range.lo, bar.range.hi, std::clamp(most, 2, most_ticks));
-        bar.values = ticks.values;
-        step = ticks.step;
-    }
-    if (bar.values.empty()) {
+    const auto text = [&](double value) {
+        return format.empty() ? number_text(value) : formatted(format, value);
+    };
+    if (!(bar.range.hi > bar.range.lo)) {
         bar.values = {bar.range.lo};
-        if (bar.range.hi > bar.range.lo) bar.values.push_back(bar.range.hi);
-        for (const double value : bar.values)
-            bar.numbers.push_back(format.empty() ? number_text(value) : formatted(format, value));
+        bar.numbers = {text(bar.range.lo)};
         return;
     }
-    if (format.empty()) {
-        bar.numbers = number_texts(bar.values, step);
-    } else {
-        for (const double value : bar.values) bar.numbers.push_back(formatted(format, value));
-    }
+    if (bar.rows < text_line * bar.em) return;
+    const int most = static_cast<int>(bar.rows / (least_tick_distance * bar.em));
+    const Ticks ticks = ticks_between(bar.range.lo, bar.range.hi, std::clamp(most, 2, most_ticks));
+    const auto apart = [&](double a, double b) { return bar.row_of(a) - bar.row_of(b); };
+    bar.values = ticks.values;
+    if (bar.values.size() < 2 || apart(bar.values[0], bar.values[1]) < text_line * bar.em)
+        bar.values = {bar.range.lo, bar.range.hi};
+    else if (format.empty())
+        bar.numbers = number_texts(bar.values, ticks.step);
+    if (!bar.numbers.empty()) return;
+    for (const double value : bar.values) bar.numbers.push_back(text(value));
 }
 
 }  // namespace
@@ -202,7 +202,7 @@ double value_at(const BarRange& range, int row, int rows) {
 }
 
 ColorBar color_bar(Pen& pen, const Annotation& wanted, const Scene& scene,
-                   const AnnotatedData& data) {
+                   const AnnotatedData& data, double height) {
     const AnnotationStyle& style = pen.style;
     Bar bar{.function = *scene.transfer_function,
             .range = bar_range(*scene.transfer_function, data.range),
@@ -222,9 +222,11 @@ ColorBar color_bar(Pen& pen, const Annotation& wanted, const Scene& scene,
     bar.top = std::round(em * (bar.caption.empty()
                                    ? 0.4
                                    : 0.2 + caption_gap + text_line * double(bar.caption.size())));
-    const double most_rows = style.height - 2 * style.gap - bar.top - under - em;
+    const double rows = std::round(bar_share * wanted.size * style.height);
+    const double others = bar.top + under + em;  // what the block has beside the bar
+    const double free_rows = std::max(rows / 2, height - others);
     bar.rows = static_cast<int>(
-        std::max(8.0, std::min(std::round(bar_share * wanted.size * style.height), most_rows)));
+        std::max(8.0, std::min({rows, free_rows, style.height - 2 * style.gap - others})));
     set_numbers(bar, wanted.format);
 
     Block block{"image.annotations.colorbar",
@@ -241,9 +243,12 @@ ColorBar color_bar(Pen& pen, const Annotation& wanted, const Scene& scene,
         block.size.x = std::max(block.size.x, pen.width(bar.opacity_text, small_text * em));
     block.size = {std::ceil(block.size.x), std::ceil(bar.top + bar.rows + under + 0.4 * em)};
     block.draw = [bar](Pen& drawing, const glm::dvec2& at) { bar.draw(drawing, at); };
+    std::vector<double> ticks;
+    for (const double value : bar.values) ticks.push_back(bar.row_of(value));
     return {std::move(block),
             {double(bar.left), bar.top, double(bar.width), double(bar.rows)},
-            bar.range};
+            bar.range,
+            std::move(ticks)};
 }
 
 }  // namespace lamina

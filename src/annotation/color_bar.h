@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "annotation/layout.h"
 
 namespace lamina {
@@ -21,16 +23,18 @@ struct ColorBar {
     Block block;
     Rectangle colors;  // where the function's colours are, from the block's upper left corner
     BarRange range;
+    std::vector<double> ticks;  // rows of the numbers, from the block's top, upwards
 };
 
 // Makes a block: the caption, the function's colours over the values that show, its opacity beside
-// them, and numbers. `wanted`: scene.annotations.colorbar.
+// them, and numbers. `wanted`: scene.annotations.colorbar; `height`: what other blocks leave to it,
+// in pixels; it shrinks to half of its own height for them.
 ColorBar color_bar(Pen& pen, const Annotation& wanted, const Scene& scene,
-                   const AnnotatedData& data);
+                   const AnnotatedData& data, double height);
 
-// Makes a block of a swatch and a name for each label that shows (label_legend.cpp). Warns if there
-// is no room for all of them.
+// Makes a block of a swatch and a name for each label that shows (label_legend.cpp), in this height
+// if at least two lines fit into it. Warns if there is no room for all of them.
 Block label_legend(Pen& pen, const Annotation& wanted, const Scene& scene,
-                   const AnnotatedData& data);
+                   const AnnotatedData& data, double height);
 
 }  // namespace lamina

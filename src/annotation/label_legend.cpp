@@ -53,7 +53,7 @@ struct Legend {
 }  // namespace
 
 Block label_legend(Pen& pen, const Annotation& wanted, const Scene& scene,
-                   const AnnotatedData& data) {
+                   const AnnotatedData& data, double height) {
     Legend legend{.em = pen.style.em * wanted.size};
     const double em = legend.em, indent = std::round(swatch_size * em) + swatch_gap * em;
     const double widest = widest_legend * pen.style.width;
@@ -65,9 +65,9 @@ Block label_legend(Pen& pen, const Annotation& wanted, const Scene& scene,
     std::vector<const Label*> shown;
     for (const Label& label : data.labels)
         if (scene.transfer_function->at(label.code).extinction > 0) shown.push_back(&label);
-    const auto rows = static_cast<std::size_t>(
-        std::max(2.0, std::floor(tallest_legend * pen.style.height / (row_height * em)) -
-                          double(legend.caption.size())));
+    const auto rows = static_cast<std::size_t>(std::max(
+        2.0, std::floor(std::min(tallest_legend * pen.style.height, height) / (row_height * em)) -
+                 double(legend.caption.size())));
     if (shown.size() > rows) {
         const std::size_t left_out = shown.size() - (rows - 1);
         shown.resize(rows - 1);

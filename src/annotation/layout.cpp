@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <numeric>
 
 #include "base/enum_words.h"
 #include "image/coded_image.h"
@@ -123,6 +124,62 @@ std::vector<Rectangle> placed(const std::vector<Block>& blocks, const Annotation
     return places;
 }
 
+bool overlap(const Rectangle& a, const Rectangle& b) {
+    return a.left < b.right() && b.left < a.right() && a.top < b.bottom() && b.top < a.bottom();
+}
+
+namespace {
+
+bool all_fit(std::vector<Block> blocks, const AnnotationStyle& style) {
+    for (Block& block : blocks) block.size = glm::max(block.size, block.largest);
+    const std::vector<Rectangle> places = placed(blocks, style);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!style.holds(places[i])) return false;
+        for (std::size_t j = 0; j < i; ++j)
+            if (overlap(places[i], places[j])) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::vector<std::string> take_misfits(std::vector<Block>& blocks, const AnnotationStyle& style) {
+    std::vector<std::size_t> order(blocks.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return blocks[i].rank; });
+    std::vector<bool> kept(blocks.size());
+    const auto chosen = [&] {
+        std::vector<Block> some;
+        for (std::size_t i = 0; i < blocks.size(); ++i)
+            if (kept[i]) some.push_back(blocks[i]);
+        return some;
+    };
+    std::vector<std::string> misfits;
+    for (const std::size_t i : order) {
+        kept[i] = true;
+        if (all_fit(chosen(), style)) continue;
+        kept[i] = false;
+        misfits.push_back(blocks[i].key);
+    }
+    blocks = chosen();
+    return misfits;
+}
+
+double free_height(const std::vector<Block>& blocks, AnnotationPosition side,
+                   const AnnotationStyle& style) {
+    double taken = 0;
+    for (const Side end : {Side::low, Side::high}) {
+        double here = style.gap;
+        for (const Block& block : blocks) {
+            const Side x = across(block.position);
+            if (down(block.position) == end && (x == across(side) || x == Side::middle))
+                here += block.size.y + style.gap;
+        }
+        taken = std::max(taken, here);
+    }
+    return style.height - 2 * taken;  // the block stands in the middle
+}
+
 PictureMargins margins_of(const std::vector<Block>& blocks, const AnnotationStyle& style) {
     PictureMargins margins;
     const std::vector<Rectangle> places = placed(blocks, style);
@@ -146,11 +203,13 @@ PictureMargins margins_of(const std::vector<Block>& blocks, const AnnotationStyl
 
 std::vector<std::string_view> lines_of(std::string_view text) {
     std::vector<std::string_view> lines;
-    for (std::size_t end = text.find('\n'); end != text.npos; end = text.find('\n')) {
-        lines.push_back(text.substr(0, end));
-        text.remove_prefix(end + 1);
+    for (std::size_t end = 0; end != text.npos;
+         text.remove_prefix(end == text.npos ? 0 : end + 1)) {
+        end = text.find('\n');
+        std::string_view line = text.substr(0, end);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        lines.push_back(line);
     }
-    lines.push_back(text);
     return lines;
 }
 

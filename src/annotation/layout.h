@@ -24,6 +24,11 @@ namespace lamina {
 struct AnnotationStyle {
     explicit AnnotationStyle(const Scene& scene);
 
+    // Tells whether a rectangle lies in the picture.
+    bool holds(const Rectangle& place) const {
+        return place.left >= 0 && place.top >= 0 && place.right() <= width &&
+               place.bottom() <= height;
+    }
     // Returns a colour of display values, 0..1, as a number of the picture's space.
     glm::dvec3 shade(const glm::dvec3& display) const;
     Paint text_paint(double opacity = 1) const;
@@ -78,14 +83,29 @@ struct Block {
     glm::dvec2 size{0};      // pixels
     bool makes_room = true;  // an automatic camera leaves room for it
     std::function<void(Pen&, const glm::dvec2& top_left)> draw;
+    // Rank: blocks of lower numbers go first where not all of them fit.
+    int rank = 0;
+    // Largest size in any view, so that what fits does not change in a film; `size` is not larger.
+    glm::dvec2 largest{0};
 };
+
+bool overlap(const Rectangle& a, const Rectangle& b);
 
 // Sets blocks to their places: those of one place stand below each other, in their order.
 std::vector<Rectangle> placed(const std::vector<Block>& blocks, const AnnotationStyle& style);
 
+// Takes the blocks out that reach beyond the picture or overlap one of lower rank; of equal ranks
+// the first stays. Returns their keys.
+std::vector<std::string> take_misfits(std::vector<Block>& blocks, const AnnotationStyle& style);
+
+// Returns the height in the middle of a side of the picture that blocks above and below leave to
+// one that stands there.
+double free_height(const std::vector<Block>& blocks, AnnotationPosition side,
+                   const AnnotationStyle& style);
+
 PictureMargins margins_of(const std::vector<Block>& blocks, const AnnotationStyle& style);
 
-std::vector<std::string_view> lines_of(std::string_view text);  // parted by "\n"
+std::vector<std::string_view> lines_of(std::string_view text);  // parted by "\n" or "\r\n"
 
 // Makes a block of lines of text.
 Block text_block(Pen& pen, const Annotation& annotation, double size, const std::string& key,

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "annotation/world_lines.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <utility>
 
 #include "annotation/numbers.h"
+#include "base/client.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -226,12 +230,14 @@ std::string coordinate_text(double value, double length) {
     return number_text(std::round(value * scale) / scale + 0.0);  // no -0
 }
 
-void draw_numbers(Pen& pen, const Annotation& wanted, const SeenBox& box, const Edge& edge,
+// Writes the numbers at the ends of an edge, and its name between them. Returns false if there is
+// no room for them.
+bool draw_numbers(Pen& pen, const Annotation& wanted, const SeenBox& box, const Edge& edge,
                   const AnnotatedData& data,
-                  const std::function<void(const Rectangle&)>& lay_plate) {
+                  const std::function<bool(const std::vector<Rectangle>&)>& make_room) {
     const double em = 0.85 * pen.style.em * wanted.size;
     const glm::dvec2 a = *box.corner(edge.from), b = *box.corner(edge.to);
-    if (glm::length(b - a) < 3.5 * em) return;  // no room for two numbers and a name
+    if (glm::length(b - a) < 3.5 * em) return false;  // no room for two numbers and a name
     const glm::dvec2 middle = box.middle().value_or(0.5 * (a + b));
     const glm::dvec2 along = glm::normalize(b - a);
     glm::dvec2 outward(-along.y, along.x);
@@ -241,13 +247,15 @@ void draw_numbers(Pen& pen, const Annotation& wanted, const SeenBox& box, const 
     const bool coordinates = along_axes(data);
     const double low = coordinates ? from[edge.axis] : 0;
     const double high = coordinates ? to[edge.axis] : glm::distance(from, to);
-    const auto write = [&](const glm::dvec2& at, const std::string& text) {
+    std::vector<std::pair<glm::dvec2, std::string>> texts;
+    std::vector<Rectangle> places;
+    const auto add = [&](const glm::dvec2& at, const std::string& text) {
         // Beside the line, as far as the text reaches towards it.
         const double half = 0.5 * pen.width(text, em);
         const double reach = std::abs(outward.x) * half + std::abs(outward.y) * 0.45 * em;
         const glm::dvec2 place = at + (reach + 0.5 * em) * outward;
-        lay_plate({place.x - half, place.y - 0.5 * em, 2 * half, em});
-        pen.text_beside(text, {snapped(place.x), snapped(place.y)}, em, Align::center);
+        places.push_back({place.x - half, place.y - 0.5 * em, 2 * half, em});
+        texts.emplace_back(glm::dvec2(snapped(place.x), snapped(place.y)), text);
     };
     const auto number = [&](double value) {
         return wanted.format.empty() ? coordinate_text(value, glm::distance(from, to))
@@ -258,12 +266,20 @@ void draw_numbers(Pen& pen, const Annotation& wanted, const SeenBox& box, const 
         return (0.5 * pen.width(text, em) * std::abs(along.x) + 0.25 * em) * along;
     };
     const std::string first = number(low), last = number(high);
-    write(a + inset(first), first);
-    write(b - inset(last), last);
+    add(a + inset(first), first);
+    add(b - inset(last), last);
+    if (overlap(places[0], places[1])) return false;
     std::string name(1, "xyz"[edge.axis]);
     if (!coordinates) name = "length";
     if (!data.length_unit.empty()) name += " (" + pen.fitted_name(data.length_unit, em) + ")";
-    if (glm::length(b - a) > 8 * em) write(0.5 * (a + b), name);
+    add(0.5 * (a + b), name);
+    if (overlap(places[0], places[2]) || overlap(places[1], places[2])) {
+        texts.pop_back();
+        places.pop_back();
+    }
+    if (!make_room(places)) return false;
+    for (const auto& [place, text] : texts) pen.text_beside(text, place, em, Align::center);
+    return true;
 }
 
 }  // namespace
@@ -276,7 +292,7 @@ Block axes_triad(Pen& pen, const Annotation& wanted, const Scene& scene,
                 {},
                 false,
                 {}};
-    block.size = glm::dvec2(std::ceil(2 * reach));
+    block.size = block.largest = glm::dvec2(std::ceil(2 * reach));
     if (scene.camera.is_automatic()) return block;
     const View view(*scene.camera, scene.width, scene.height);
     std::array<Arrow, 3> arrows{};
@@ -305,7 +321,7 @@ Block axes_triad(Pen& pen, const Annotation& wanted, const Scene& scene,
 }
 
 void draw_box(Pen& pen, const Annotation& wanted, const Scene& scene, const AnnotatedData& data,
-              const std::function<void(const Rectangle&)>& lay_plate) {
+              const std::function<bool(const std::vector<Rectangle>&)>& make_room) {
     const SeenBox box(scene, data);
     const double t = pen.style.thickness(pen.style.em * wanted.size);
     for (const bool front : {false, true}) {
@@ -317,9 +333,17 @@ void draw_box(Pen& pen, const Annotation& wanted, const Scene& scene, const Anno
             }
         }
     }
-    for (int axis = 0; axis < 3; ++axis)
-        if (const auto edge = numbered_edge(box, axis))
-            draw_numbers(pen, wanted, box, *edge, data, lay_plate);
+    std::string bare;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto edge = numbered_edge(box, axis);
+        if (edge && draw_numbers(pen, wanted, box, *edge, data, make_room)) continue;
+        bare += fmt::format("{}{}", bare.empty() ? "" : ", ", "xyz"[axis]);
+    }
+    if (bare.empty()) return;
+    warn(fmt::format(
+        "image.annotations.box: no numbers along {}: no outer edge that is whole in the "
+        "picture has room for them",
+        bare));
 }
 
 }  // namespace lamina

@@ -15,8 +15,9 @@ Block axes_triad(Pen& pen, const Annotation& wanted, const Scene& scene, const A
 
 // Draws the edges of the data's box over the picture, those at its back dimmer, and numbers at the
 // ends of three outer edges: coordinates, or lengths if the box does not lie along the world's
-// axes. Volume and box do not hide each other. `lay_plate` makes numbers in a rectangle readable.
+// axes. Volume and box do not hide each other. `make_room` makes texts in these rectangles
+// readable, or returns false if something else is there. Warns of edges without numbers.
 void draw_box(Pen& pen, const Annotation& wanted, const Scene& scene, const AnnotatedData& data,
-              const std::function<void(const Rectangle&)>& lay_plate);
+              const std::function<bool(const std::vector<Rectangle>&)>& make_room);
 
 }  // namespace lamina

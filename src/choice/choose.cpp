@@ -279,10 +279,11 @@ std::string take_opacity(const Adjustments& adjustments, TransferFunction& trans
         transfer_function = with_opacity_of(transfer_function, colormap);
         return fmt::format("the preset {}", adjustments.opacity_word);
     }
-    const ValueRange range = adjustments.transfer.range.value_or(shown_range(transfer_function));
+    const ValueRange shown = adjustments.transfer.range.value_or(shown_range(transfer_function));
+    const ValueRange range = curve.range.value_or(shown);
     transfer_function = with_opacity(transfer_function, curve, range);
-    return fmt::format("opacity {} from {:.6g} to {:.6g}", adjustments.opacity_word, range.lo,
-                       range.hi);
+    return fmt::format("opacity {} from {:.6g} to {:.6g}", shortened(adjustments.opacity_word),
+                       range.lo, range.hi);
 }
 
 std::string clip_text(const Clip& clip) {
@@ -342,8 +343,9 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
              name_of_data(scene));
     }
     if (!adjustments.map_in_hu.empty()) {
-        expect_hounsfield_units(field.range(), *adjustments.transfer.colormap,
-                                adjustments.map_in_hu, name_of_data(scene));
+        if (const auto mistake = mistake_in_hounsfield_units(
+                field.range(), *adjustments.transfer.colormap, adjustments.map_in_hu))
+            fail("{}: {}", name_of_data(scene), *mistake);
     }
     const bool chooses_function = scene.transfer_function.is_automatic();
     const bool chooses_camera = scene.camera.is_automatic() || adjustments.up || adjustments.side;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "base/enum_words.h"
@@ -42,6 +43,55 @@ void add_points(const OpacityCurve& curve, double from, double to, int halvings,
     add_points(curve, middle, to, halvings - 1, places);
 }
 
+// Returns the share at t of straight lines between points.
+double share_between(const std::vector<OpacityCurve::Point>& points, double t) {
+    const auto next = std::ranges::upper_bound(points, t, {}, &OpacityCurve::Point::t);
+    if (next == points.begin()) return points.front().share;
+    if (next == points.end()) return points.back().share;
+    const OpacityCurve::Point &a = *(next - 1), &b = *next;
+    return a.share + (t - a.t) / (b.t - a.t) * (b.share - a.share);
+}
+
+// Reads the number at the front of a text, and removes it. Nothing if there is none or it is beyond
+// `largest`.
+std::optional<double> take_number(std::string_view& text, double largest) {
+    double number = 0;
+    const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (problem != std::errc{} || !(std::abs(number) <= largest)) return std::nullopt;
+    text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
+    return number;
+}
+
+// Returns the curve of "0,.2,.9" or "10:0,20:.5".
+std::optional<OpacityCurve> curve_of_numbers(std::string_view text) {
+    OpacityCurve curve{OpacityCurve::Form::points};
+    const bool pairs = text.find(':') != text.npos;
+    for (bool more = true; more; text.remove_prefix(more ? 1 : 0)) {
+        OpacityCurve::Point point{static_cast<double>(curve.points.size()), 0};
+        if (pairs) {
+            const auto value = take_number(text, 1e300);
+            if (!value || !text.starts_with(':')) return std::nullopt;
+            text.remove_prefix(1);
+            point.t = *value;
+        }
+        const auto share = take_number(text, 1);
+        if (!share || *share < 0) return std::nullopt;
+        point.share = *share;
+        if (!curve.points.empty() && !(curve.points.back().t < point.t)) return std::nullopt;
+        curve.points.push_back(point);
+        more = text.starts_with(',');
+    }
+    const bool any = std::ranges::any_of(curve.points, [](const auto& p) { return p.share > 0; });
+    if (!text.empty() || curve.points.size() < 2 || curve.points.size() > most_scene_points || !any)
+        return std::nullopt;
+    const ValueRange range{curve.points.front().t, curve.points.back().t};
+    for (OpacityCurve::Point& point : curve.points)
+        point.t = (point.t - range.lo) / (range.hi - range.lo);
+    curve.points.back().t = 1;
+    if (pairs) curve.range = range;
+    return curve;
+}
+
 // Returns the function's colours as a map at their values.
 Colormap colors_of(const TransferFunction& transfer_function) {
     Colormap colors;
@@ -61,6 +111,8 @@ double OpacityCurve::at(double t) const {
             return std::pow(geom_ratio, x - 1);
         case Form::sigmoid:
             return 1 / (1 + std::exp(-steepness * (2 * x - 1)));
+        case Form::points:
+            return share_between(points, t);
         case Form::foreground:
         case Form::of_colormap:
             return 1;
@@ -77,7 +129,7 @@ std::optional<OpacityCurve> opacity_curve(const std::string& word) {
     if (word == "foreground") return OpacityCurve{Form::foreground};
     if (word == "sigmoid") return OpacityCurve{Form::sigmoid};
     const std::string beginning = "sigmoid_";
-    if (!word.starts_with(beginning)) return std::nullopt;
+    if (!word.starts_with(beginning)) return curve_of_numbers(word);
     OpacityCurve curve{Form::sigmoid};
     const char* const end = word.data() + word.size();
     int steepness = 0;
@@ -103,15 +155,21 @@ ValueRange shown_range(const TransferFunction& transfer_function) {
 TransferFunction with_opacity(const TransferFunction& transfer_function, const OpacityCurve& curve,
                               const ValueRange& range) {
     const auto knots = transfer_function.knots();
-    std::vector<double> places{0};
-    add_points(curve, 0, 1, most_halvings, places);
+    std::vector<double> places;
+    if (curve.form == OpacityCurve::Form::points) {
+        for (const OpacityCurve::Point& point : curve.points) places.push_back(point.t);
+    } else {
+        places = {0};
+        add_points(curve, 0, 1, most_halvings, places);
+    }
     std::vector<ExtinctionPoint> points;
-    if (curve.at(0) > 0) points.push_back({range.lo, 0});
+    if (curve.at(0) > 0 && !curve.range) points.push_back({range.lo, 0});
     for (const double t : places) {
         const double value = t == 1 ? range.hi : range.lo + t * (range.hi - range.lo);
         points.push_back({value, curve.at(t)});
     }
-    const bool ends = knots.back().optics.extinction == 0 && knots.back().value <= range.hi;
+    const bool ends =
+        !curve.range && knots.back().optics.extinction == 0 && knots.back().value <= range.hi;
     if (ends && curve.at(1) > 0) points.push_back({range.hi, 0});
     return TransferFunction::linear(combine(colors_of(transfer_function), points));
 }
@@ -138,17 +196,18 @@ std::span<const Preset> presets() {
     return all;
 }
 
-void expect_hounsfield_units(const ValueRange& range, const Colormap& colormap,
-                             const std::string& name, const std::string& data) {
-    const std::string found =
-        fmt::format("{}: found values from {:.6g} to {:.6g}", data, range.lo, range.hi);
+std::optional<std::string> mistake_in_hounsfield_units(const ValueRange& range,
+                                                       const Colormap& colormap,
+                                                       const std::string& name) {
+    const std::string found = fmt::format("found values from {:.6g} to {:.6g}, expected HU for {}",
+                                          range.lo, range.hi, name);
     const std::string hint = fmt::format(
-        "a range LO,HI (--range; in Python clim) says which values stand for {:.6g} and {:.6g} HU "
-        "(0,4095 for HU + 1024)",
+        "a range LO,HI (--range; in Python clim; in a scene colormap_range) says which values "
+        "stand for {:.6g} and {:.6g} HU (0,4095 for HU + 1024)",
         colormap.colors.front().value, colormap.colors.back().value);
     if (range.lo >= 0) {
-        fail("{}, expected HU for {}: none is below 0, but air is -1000 HU and fat -100; {}", found,
-             name, hint);
+        return fmt::format("{}: none is below 0, but air is -1000 HU and fat -100; {}", found,
+                           hint);
     }
     ValueRange shows;
     for (const OpacityPoint& point : colormap.opacities) {
@@ -157,9 +216,8 @@ void expect_hounsfield_units(const ValueRange& range, const Colormap& colormap,
                                   : ValueRange{std::min(shows.lo, point.value),
                                                std::max(shows.hi, point.value)};
     }
-    if (shows.empty() || (range.hi >= shows.lo && range.lo <= shows.hi)) return;
-    fail("{}, expected HU for {}, which shows {:.6g} to {:.6g} HU; {}", found, name, shows.lo,
-         shows.hi, hint);
+    if (shows.empty() || (range.hi >= shows.lo && range.lo <= shows.hi)) return std::nullopt;
+    return fmt::format("{}, which shows {:.6g} to {:.6g} HU; {}", found, shows.lo, shows.hi, hint);
 }
 
 }  // namespace lamina

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "lamina/color.h"
 #include "lamina/transfer_function.h"
@@ -16,20 +17,30 @@ namespace lamina {
 // A curve of extinction over the values that show, which run from t = 0 to t = 1. The formulas are
 // those of pyvista's presets of these names.
 struct OpacityCurve {
-    enum class Form { linear, geom, sigmoid, foreground, of_colormap };
+    enum class Form { linear, geom, sigmoid, foreground, points, of_colormap };
+    struct Point {
+        double t, share;
+    };
+
     Form form = Form::linear;
     bool reversed = false;
-    double steepness = 10;  // of a sigmoid
+    double steepness = 10;        // of a sigmoid
+    std::vector<Point> points{};  // of the form `points`: straight lines, from t = 0 to t = 1
+    // Values of t = 0 and t = 1 if the points have values of their own; the function is constant
+    // outside.
+    std::optional<ValueRange> range{};
 
     // Returns the extinction at t, as a share of the largest; the form must not be of_colormap.
     double at(double t) const;
 };
 
 // Returns the curve of a word: linear, geom, sigmoid, sigmoid_N, foreground; the first two also
-// with _r, which reverses them. Nothing for other words.
+// with _r, which reverses them; or of numbers. Nothing for other words.
 std::optional<OpacityCurve> opacity_curve(const std::string& word);
 inline constexpr const char* opacity_words =
-    "linear, linear_r, geom, geom_r, sigmoid, sigmoid_1 to sigmoid_20 or foreground";
+    "linear, linear_r, geom, geom_r, sigmoid, sigmoid_1 to sigmoid_20, foreground, or numbers from "
+    "0 to 1, two or more and not all 0: 0,.2,.9 spread evenly, or VALUE:NUMBER,... with rising "
+    "values";
 
 // Returns the values from the first to the last that the function shows; all of its points' values
 // if it shows none.
@@ -55,9 +66,10 @@ struct Preset {
 
 std::span<const Preset> presets();
 
-// Throws Error if data of this range cannot be in HU, or if the colour map `name`
-// shows none of them.
-void expect_hounsfield_units(const ValueRange& range, const Colormap& colormap,
-                             const std::string& name, const std::string& data);
+// Says why data of this range cannot be in HU, or that the colour map `name` shows none of them,
+// and what helps. Nothing if they can.
+std::optional<std::string> mistake_in_hounsfield_units(const ValueRange& range,
+                                                       const Colormap& colormap,
+                                                       const std::string& name);
 
 }  // namespace lamina

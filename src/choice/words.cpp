@@ -10,8 +10,10 @@
 #include <utility>
 
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "base/enum_words.h"
+#include "base/json_text.h"
 #include "optics/colormap.h"
 #include "scene/camera.h"
 
@@ -47,6 +49,8 @@ ValueRange range_of(const std::string& text) {
 
 // Throws WordError if the name is neither a map's nor a file's. A damaged file is an Error.
 Colormap colormap_of_word(const std::string& name_or_path, ImageColorSpace space) {
+    if (name_or_path.starts_with('{'))
+        return colormap_of(parse_json(name_or_path), "colormap", space);
     try {
         return load_colormap(name_or_path, space);
     } catch (const Error& error) {

@@ -238,7 +238,10 @@ Json report_on_volume(const std::string& file, const std::string& png,
 
 bool is_volume_data(const std::string& file, const VolumeRequest& request) {
     const FileKind kind = request.raw ? FileKind::volume : kind_of_file(file);
-    if (kind == FileKind::scene) fail("{}: holds a scene, expected a volume or a mesh", file);
+    if (kind == FileKind::scene) {
+        load_json(file);  // says what is wrong with a file that is missing, empty or no JSON
+        fail("{}: holds a scene, expected a volume or a mesh", file);
+    }
     return kind == FileKind::volume;
 }
 

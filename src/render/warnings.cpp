@@ -7,14 +7,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vector_relational.hpp>
 
 #include "base/error.h"
+#include "choice/opacity_presets.h"
 #include "mesh/tet_mesh.h"
+#include "optics/colormap.h"
 #include "scene/camera.h"
 #include "scene/clip.h"
+#include "scene/given_transfer.h"
 
 namespace lamina {
 namespace {
@@ -200,6 +204,27 @@ void warn_of_colors(const Scene& scene, const ValueRange& range) {
                     name_of_scene(scene), range_text(colors), range_text(range)));
 }
 
+// Tells whether a transfer function has the colours of another one, to a 1000th of a code.
+bool has_colors_of(const TransferFunction& function, const TransferFunction& other) {
+    constexpr double same = 1e-3 / 255;
+    return std::ranges::all_of(other.knots(), [&](const TransferKnot& knot) {
+        const glm::dvec3 apart =
+            glm::abs(function.at(knot.value).color - other.at(knot.value).color);
+        return glm::all(glm::lessThan(apart, glm::dvec3(same)));
+    });
+}
+
+// Warns if the scene's colour map is one in HU, unless a range or a word changed that, and the data
+// cannot be in them.
+void warn_of_units(const Scene& scene, const ValueRange& range) {
+    const GivenTransfer* const given = scene.given_transfer.get();
+    if (given == nullptr || !given->map || !given->map->own_range || range.empty()) return;
+    if (given->colormap_range.is_given() || !is_colormap_name(given->colormap)) return;
+    const auto mistake = mistake_in_hounsfield_units(range, *given->map, given->colormap);
+    if (mistake && has_colors_of(*scene.transfer_function, transfer_function_of(*given)))
+        warn(fmt::format("{}.colormap: {}", given->place, *mistake));
+}
+
 }  // namespace
 
 Warnings data_warnings(const VolumeData& data) {
@@ -296,6 +321,7 @@ void warn_of_picture(const Scene& scene, const Field& field, const Image& pictur
         ++shown;
         saturated += std::max({pixel[0], pixel[1], pixel[2]}) >= full ? 1U : 0U;
     }
+    warn_of_units(scene, field.range());
     if (shown > 0) warn_of_colors(scene, field.range());
     if (shown == 0) {
         warn(fmt::format("{}: the picture shows nothing: {}", name_of_scene(scene),

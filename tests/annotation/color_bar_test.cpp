@@ -32,10 +32,11 @@ AnnotatedData measured(double lo, double hi) {
 
 // A colour bar in the upper left corner of a picture.
 struct DrawnBar {
-    DrawnBar(const Scene& scene, const AnnotatedData& data) : style(scene) {
+    DrawnBar(const Scene& scene, const AnnotatedData& data, double height = 1e9) : style(scene) {
         Canvas canvas(scene.width, scene.height, scene.color_space);
         Pen pen(style, font, &canvas);
-        bar = color_bar(pen, scene.annotations.colorbar.value_or(Annotation{}), scene, data);
+        bar =
+            color_bar(pen, scene.annotations.colorbar.value_or(Annotation{}), scene, data, height);
         bar.block.draw(pen, {0, 0});
         picture = Image(scene.width, scene.height);
         picture.space = scene.color_space;
@@ -157,6 +158,40 @@ TEST(ColorBar, FitsIntoSmallPictures) {
         const DrawnBar drawn(scene, measured(0, 255));
         EXPECT_LE(drawn.bar.block.size.y, height);
         EXPECT_GT(drawn.bar.colors.height, 0);
+    }
+}
+
+// A bar shrinks to half for others, never below.
+TEST(ColorBar, LeavesRoomToOthers) {
+    const Scene scene = scene_with(colorful());
+    const DrawnBar whole(scene, measured(0, 255));
+    const double height = whole.bar.block.size.y;
+    const DrawnBar lower(scene, measured(0, 255), height - 40);
+    EXPECT_LE(lower.bar.block.size.y, height - 40);
+    EXPECT_GT(lower.bar.block.size.y, height - 60);
+    const DrawnBar least(scene, measured(0, 255), 10);
+    EXPECT_EQ(least.bar.colors.height, whole.bar.colors.height / 2);
+}
+
+// One number says nothing about a range. Whatever the range, numbers are at least a line apart.
+TEST(ColorBar, HasTwoNumbersOrNone) {
+    const TransferFunction ramp =
+        TransferFunction::linear({knot(0, {0.1, 0.2, 0.9}, 1), knot(1, {0.9, 0.2, 0.1}, 1)});
+    for (const int height : {40, 60, 80, 100, 150, 300}) {
+        for (const auto& [lo, hi] : {std::pair(0.6, 1.4),
+                                     {0.0, 1.9},
+                                     {-3.0, 3.0},
+                                     {0.99, 1.01},
+                                     {0.1, 0.2},
+                                     {5.0, 105.0}}) {
+            const DrawnBar drawn(scene_with(ramp, 200, height), measured(lo, hi));
+            const std::vector<double>& rows = drawn.bar.ticks;
+            EXPECT_NE(rows.size(), 1u) << height << " " << lo;
+            EXPECT_EQ(rows.empty(), drawn.bar.colors.height < 1.35 * drawn.style.em)
+                << height << " " << lo;
+            for (std::size_t i = 1; i < rows.size(); ++i)
+                EXPECT_GE(rows[i - 1] - rows[i], 1.35 * drawn.style.em - 1e-9) << height << lo;
+        }
     }
 }
 

@@ -150,6 +150,93 @@ TEST(AnnotationLayer, SaysWhatItCannotShow) {
     EXPECT_EQ(said(scene, many).find("U+6F22"), std::string::npos);
 }
 
+Annotations everything() {
+    Annotations all;
+    all.colorbar = all.scale_bar = all.axes = Annotation{};
+    all.title = titled("Temperature at the wall");
+    all.texts = {titled("preliminary")};
+    return all;
+}
+
+// Blocks that are drawn in the order of their ranks, by the keys that the warning does not name.
+std::vector<std::string> left_out(int width, int height, const Annotations& wanted) {
+    Scene scene = plain_scene();
+    scene.width = width;
+    scene.height = height;
+    scene.annotations = wanted;
+    scene.camera = Camera{};
+    const test::HeardWarnings heard;
+    annotation_layer(scene, plain_data(), Image(width, height));
+    std::vector<std::string> keys;
+    for (const char* const key : {"title", "colorbar", "scale_bar", "axes", "texts.0"})
+        if (heard.all().find(key) != std::string::npos) keys.emplace_back(key);
+    return keys;
+}
+
+// What is more important stays. A picture of 300 x 200 has room for all, as larger ones have.
+TEST(AnnotationLayer, LeavesOutWhatDoesNotFitInTheOrderOfImportance) {
+    using Keys = std::vector<std::string>;
+    for (const auto& [width, height] : {std::pair(300, 200), {480, 360}, {800, 600}, {1920, 1080}})
+        EXPECT_EQ(left_out(width, height, everything()), Keys{}) << width;
+    std::size_t before = 0;
+    for (const int width : {300, 200, 160, 120, 90, 60, 30, 10}) {
+        const Keys keys = left_out(width, width * 2 / 3, everything());
+        EXPECT_GE(keys.size(), before) << width;
+        before = keys.size();
+    }
+    EXPECT_EQ(before, 5u);
+    // Two titles' worth of texts in one corner: the second is as important as the first.
+    Annotations texts;
+    texts.texts = {titled("one"), titled(std::string(80, 'x'))};
+    EXPECT_EQ(left_out(300, 200, texts), Keys{});
+    texts.texts = {titled(std::string(80, 'x'))};
+    EXPECT_EQ(left_out(300, 200, texts), Keys{"texts.0"});
+}
+
+// What take_misfits() leaves lies in the picture, and no two of it overlap.
+TEST(AnnotationLayer, WhatStaysDoesNotOverlap) {
+    for (int width = 20; width <= 400; width += 20) {
+        Scene scene = plain_scene();
+        scene.width = width;
+        scene.height = width * 3 / 4;
+        const AnnotationStyle style(scene);
+        std::vector<Block> blocks;
+        int rank = 0;
+        for (const AnnotationPosition position :
+             {AnnotationPosition::right, AnnotationPosition::top, AnnotationPosition::bottom_right,
+              AnnotationPosition::bottom_left, AnnotationPosition::bottom_left}) {
+            Block block;
+            block.key = std::to_string(rank);
+            block.position = position;
+            block.size = {80, 45};
+            block.rank = rank++;
+            blocks.push_back(block);
+        }
+        const std::vector<std::string> out = take_misfits(blocks, style);
+        EXPECT_EQ(blocks.size() + out.size(), 5u);
+        const std::vector<Rectangle> places = placed(blocks, style);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            EXPECT_TRUE(style.holds(places[i])) << width;
+            for (std::size_t j = 0; j < i; ++j)
+                EXPECT_FALSE(overlap(places[i], places[j])) << width;
+        }
+    }
+}
+
+TEST(AnnotationLayer, LinesEndWithOrWithoutACarriageReturn) {
+    const auto drawn = [](const std::string& text) {
+        Scene scene = plain_scene();
+        scene.annotations.title = titled(text);
+        const test::HeardWarnings heard;
+        const auto layer = annotation_layer(scene, plain_data(), Image(300, 200));
+        EXPECT_EQ(heard.all(), "");
+        return layer->rgba;
+    };
+    EXPECT_EQ(drawn("one\r\ntwo\r\n"), drawn("one\ntwo\n"));
+    EXPECT_EQ(lines_of("a\n\nb"), (std::vector<std::string_view>{"a", "", "b"}));
+    EXPECT_EQ(lines_of(""), std::vector<std::string_view>{""});
+}
+
 TEST(AnnotationLayer, SmallestPicturesHoldNumbers) {
     const test::HeardWarnings heard;
     for (const auto& [width, height] : {std::pair(1, 1), {32, 32}, {1, 200}, {200, 1}}) {

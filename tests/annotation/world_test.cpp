@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 
 #include "annotation/numbers.h"
 #include "annotation/scale_bar.h"
 #include "mesh/predicates.h"
 #include "scene/camera.h"
+#include "support/heard_warnings.h"
 
 namespace lamina {
 namespace {
@@ -125,12 +127,16 @@ TEST(Axes, PointAsTheWorldDoes) {
     }
 }
 
-std::shared_ptr<const Image> drawn_box(const Scene& scene, const AnnotatedData& data) {
+using Room = std::function<bool(const std::vector<Rectangle>&)>;
+
+std::shared_ptr<const Image> drawn_box(
+    const Scene& scene, const AnnotatedData& data,
+    const Room& make_room = [](const std::vector<Rectangle>&) { return true; }) {
     const AnnotationStyle style(scene);
     Font font;
     Canvas canvas(scene.width, scene.height, {});
     Pen pen(style, font, &canvas);
-    draw_box(pen, Annotation{}, scene, data, [](const Rectangle&) {});
+    draw_box(pen, Annotation{}, scene, data, make_room);
     return canvas.take();
 }
 
@@ -160,6 +166,26 @@ TEST(Box, DrawsNothingBehindTheEye) {
     data.corners = box_corners(glm::dvec3(20, -20, 20), glm::dvec3(30, -10, 30));
     const auto layer = drawn_box(scene, data);
     for (std::size_t i = 3; i < layer->rgba.size(); i += 4) ASSERT_EQ(layer->rgba[i], 0);
+}
+
+TEST(Box, LeavesNumbersOutOnlyWithAWord) {
+    Scene scene = scene_of(cameras()[0]);
+    AnnotatedData data;
+    data.corners = box_corners({-0.5, -0.4, -0.6}, {0.9, 0.7, 0.3});
+    const test::HeardWarnings heard;
+    int asked = 0;
+    drawn_box(scene, data, [&](const std::vector<Rectangle>& places) {
+        EXPECT_GE(places.size(), 2u);
+        return ++asked != 2;
+    });
+    EXPECT_EQ(asked, 3);
+    EXPECT_NE(heard.all().find("box: no numbers along y:"), std::string::npos) << heard.all();
+    drawn_box(scene, data);
+    EXPECT_EQ(heard.all().find("along x"), std::string::npos);
+    scene.width = 64;  // edges of a few pixels
+    scene.height = 48;
+    drawn_box(scene, data);
+    EXPECT_NE(heard.all().find("no numbers along x, y, z"), std::string::npos) << heard.all();
 }
 
 }  // namespace

@@ -184,6 +184,30 @@ TEST(OpacityWords, RunOverWhatShows) {
     EXPECT_EQ(flat.at(50.001).extinction, 0);
 }
 
+TEST(OpacityWords, CanBeNumbers) {
+    const auto at = [](const std::string& word, double t) { return opacity_curve(word)->at(t); };
+    EXPECT_EQ(at("0,1", .25), .25);
+    EXPECT_EQ(at("0,.5,1,.25", 1. / 3), .5);
+    EXPECT_EQ(at("0,.5,1,.25", 1), .25);
+    EXPECT_EQ(at("10:0,20:1,50:0", .25), 1);
+    EXPECT_NEAR(at("10:0,20:1,50:0", .625), .5, 1e-15);
+    for (const char* const none : {"1", "", ",", "0,", ",1", "0,1,", "0,0", "0,2", "-1,1", "0,nan",
+                                   "1:0", "1:0,1:1", "2:0,1:1", "1:0,2", "0,1 ", "a:0,b:1"})
+        EXPECT_FALSE(opacity_curve(none)) << none;
+    const TransferFunction function =
+        TransferFunction::linear({{0, {glm::dvec3(1), 1}}, {100, {glm::dvec3(1), 2}}});
+    // Numbers in place of t are 0 below; those with values of their own are constant outside.
+    const auto spread = with_opacity(function, *opacity_curve("1,.5"), {10, 30});
+    EXPECT_EQ(spread.at(9).extinction, 0);
+    EXPECT_EQ(spread.at(20).extinction, .75);
+    const OpacityCurve pairs = *opacity_curve("10:1,30:.5");
+    ASSERT_TRUE(pairs.range);
+    const auto own = with_opacity(function, pairs, *pairs.range);
+    EXPECT_EQ(own.at(-5).extinction, 1);
+    EXPECT_EQ(own.at(20).extinction, .75);
+    EXPECT_EQ(own.at(99).extinction, .5);
+}
+
 // The density is the automatic one: the median ray has an opacity of .9 (docs/first-picture.md).
 TEST(OpacityWords, HaveTheAutomaticDensity) {
     const Cube cube;

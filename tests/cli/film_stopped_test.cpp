@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Films of lamina render that are refused, fail or are stopped.
+#include <linux/capability.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 
 #include <chrono>
@@ -156,6 +158,22 @@ TEST_F(FilmStopped, CtrlCEndsFfmpeg) {
     EXPECT_EQ(kill(std::stoi(read_bytes_of(id)), 0), -1);
     EXPECT_FALSE(exists("film.mp4"));
     EXPECT_TRUE(exists("film.mp4.frames/frame_00002.png"));
+}
+
+// Films replace a file as pictures do: its mode stays, and one that is read-only is no obstacle.
+TEST_F(FilmStopped, AReadOnlyFilmIsReplacedAndStaysReadOnly) {
+    write_bytes_to(folder / "film.mp4", "old");
+    chmod((folder / "film.mp4").c_str(), 0444);
+    const auto copying = with_ffmpeg("/bin/cat >/proc/self/fd/3\n");
+    const ProgramResult result = render("film.mp4", {"--turntable", "2"}, [&] {
+        copying();
+        prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE);  // root could write everything
+    });
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(read_bytes_of(folder / "film.mp4").substr(1, 3), "PNG");
+    struct stat found = {};
+    ASSERT_EQ(stat((folder / "film.mp4").c_str(), &found), 0);
+    EXPECT_EQ(found.st_mode & 0777, 0444);
 }
 
 TEST_F(FilmStopped, FramesOfOthersAreLeftAlone) {

@@ -227,7 +227,7 @@ TEST_F(FirstPicture, MistakesInShortcutsAreNamed) {
         {{"--range", "3"}, "--range 3: expected LO,HI"},
         {{"--range", "5,2"}, "--range 5,2: expected LO,HI"},
         {{"--size", "800"}, "--size 800: expected WxH"},
-        {{"--size", "0x5"}, "image.width: found 0"},
+        {{"--size", "0x5"}, "--size 0x5: expected 1 pixel or more each"},
         {{"--zoom", "0"}, "--zoom 0: expected"},
         {{"--density", "-1"}, "--density -1: expected"},
         {{"--background", "blurple"}, "image.background"},

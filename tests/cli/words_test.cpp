@@ -13,6 +13,7 @@
 #include "cli/blobs_scene.h"
 #include "cli/lamina_run.h"
 #include "image/exr.h"
+#include "image/png.h"
 #include "lamina/scene.h"
 #include "support/temporary_folder.h"
 
@@ -105,6 +106,73 @@ TEST_F(WordsRun, MistakesAreOfUsage) {
     EXPECT_EQ(units.exit_code, 1);
     EXPECT_NE(units.err.find("v.nrrd: found values from"), std::string::npos) << units.err;
     EXPECT_NE(units.err.find("expected HU for ct-bone"), std::string::npos) << units.err;
+}
+
+// --light alone is a headlight, also before the file.
+TEST_F(WordsRun, LightTakesNoFileForItsWord) {
+    const ProgramResult before =
+        lamina_run({"scene", "--light", folder / "v.nrrd", "-o", "-", "--size", "40x30"});
+    ASSERT_EQ(before.exit_code, 0) << before.err;
+    EXPECT_EQ(json::parse(before.out), scene({"--light"}));
+    const ProgramResult absent = lamina_run({"scene", "--light", folder / "none.nrrd", "-o", "-"});
+    EXPECT_EQ(absent.exit_code, 1);
+    EXPECT_NE(absent.err.find("none.nrrd: no such file"), std::string::npos) << absent.err;
+}
+
+TEST_F(WordsRun, OptionsTwiceOrUnknownAreNamed) {
+    const auto expect = [&](const std::vector<std::string>& more, const std::string& message) {
+        const ProgramResult result = run(more, "render", folder / "x.png");
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_TRUE(result.err.starts_with("lamina: " + message)) << result.err;
+        EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+    };
+    expect({"--size", "20x10"}, "--size: found 2 times, expected once");
+    expect({"--colourmap", "greys"}, "--colourmap: no such option, did you mean \"--colormap\"?");
+    expect({"--nothing-like-it"}, "--nothing-like-it: no such option (");
+    expect({"w.nrrd"}, "w.nrrd: not expected here");
+}
+
+TEST_F(WordsRun, OutputsOfNoKnownKindSayWhichThereAre) {
+    const auto expect = [&](const std::string& output, const std::string& message) {
+        const ProgramResult result = lamina_run({"render", folder / "v.nrrd", "-o", output});
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
+    };
+    expect(folder / "f.avi", ".png, .exr or .npy; films end in .mp4, .webm, .gif or .apng");
+    expect(std::string(folder / ""), "is a folder, expected a file");
+}
+
+// A background is drawn or not; annotations suit it in any case.
+TEST_F(WordsRun, TransparencyWinsOverABackgroundAndSaysSo) {
+    const std::vector<std::string> words{"--transparent", "--background", "white", "--title", "T"};
+    const ProgramResult drawn = run(words, "render", folder / "x.png");
+    EXPECT_EQ(drawn.exit_code, 0);
+    EXPECT_NE(drawn.err.find("--transparent: there is no background"), std::string::npos)
+        << drawn.err;
+    EXPECT_EQ(read_png(folder / "x.png").codes[3], 0);
+}
+
+// A scene that names a map in HU itself draws as it says, with the reason why that may be wrong.
+TEST_F(WordsRun, AMapInHuOfASceneIsWarnedOfIfTheDataAreNotInHu) {
+    const auto said = [&](const json& transfer_function, const std::vector<std::string>& more) {
+        json document = {{"version", 1}, {"volume", "v.nrrd"}};
+        document["transfer_function"] = transfer_function;
+        write_bytes_to(folder / "s.json", document.dump());
+        std::vector<std::string> arguments{"render",         folder / "s.json", "-o",
+                                           folder / "x.png", "--size",          "20x15"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = lamina_run(arguments);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result.err;
+    };
+    const char* const reason = "s.json: transfer_function.colormap: found values from 0 to";
+    EXPECT_NE(said({{"colormap", "ct-bone"}}, {}).find(reason), std::string::npos);
+    EXPECT_NE(said({{"colormap", "ct-bone"}}, {"--density", "2"}).find(reason), std::string::npos);
+    for (const std::string& fine :
+         {said({{"colormap", "ct-bone"}, {"colormap_range", {0, 255}}}, {}),
+          said({{"colormap", "ct-bone"}}, {"--colormap", "greys"}),
+          said({{"colormap", "viridis"}, {"points", {{{"value", 0}, {"extinction", 1}}}}}, {})})
+        EXPECT_EQ(fine.find("HU"), std::string::npos) << fine;
 }
 
 TEST_F(WordsRun, ForAnnotationsKeepWhatTheSceneSaysOfThem) {

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
+import shutil
+import subprocess
 import threading
 import warnings
 
@@ -75,6 +77,41 @@ def test_a_turntable_moves(session, tmp_path):
     # Programs that do not know APNG show the first picture.
     table[0].save(tmp_path / "first.png")
     assert lamina.compare(tmp_path / "a.png", tmp_path / "first.png").linf == 0
+
+
+def test_films_are_those_of_the_command_line(blob, function, program, tmp_path):
+    session = lamina.Session(blob, function, size=(48, 36), context="cpu", annotations={"title": "T"})
+    views = session.turntable(4)
+    heard = []
+    films = [("a.apng", [])]
+    if shutil.which("ffmpeg"):
+        films += [("a.mp4", ["--fps", "10"]), ("a.webm", []), ("a.gif", ["--fps", "10"])]
+    session.resolved_scene.save(tmp_path / "scene.json")
+    for name, options in films:
+        subprocess.run([program, "render", tmp_path / "scene.json", "-o", tmp_path / f"c{name}", "--turntable", "4",
+                        "--context", "cpu", "--quiet", *options], check=True)
+        views.save(tmp_path / name, **({"fps": 10} if options else {}), progress=lambda activity, share: heard.append(activity))
+        assert (tmp_path / name).read_bytes()[:4] == (tmp_path / f"c{name}").read_bytes()[:4]
+    # The frames are the same, bit for bit; other films have the same encoder's marks and times in them.
+    assert (tmp_path / "a.apng").read_bytes() == (tmp_path / "ca.apng").read_bytes()
+    assert len(films) == 1 or "encoding frames" in heard
+    lamina.save_film(list(views), tmp_path / "b.apng")
+    assert (tmp_path / "b.apng").read_bytes() == (tmp_path / "a.apng").read_bytes()
+
+
+def test_films_that_cannot_be_are_refused(session, tmp_path):
+    picture = session.draw()
+    clear = lamina.render(picture.scene, transparent=True, size=SIZE, context="cpu")
+    for pictures, name, fps, message in (([picture], "a.avi", 25, 'suffix ".avi", expected .mp4, .webm, .gif or .apng'),
+                                         ([], "a.apng", 25, "no frames"), ([picture], "a.apng", 0, "0 frames a second"),
+                                         ([picture], "a.gif", 60, "at most 50"), ([clear], "a.mp4", 25, "no straight alpha"),
+                                         ([picture, lamina.render(picture.scene, size=(10, 8))], "a.apng", 25, "differ in size"),
+                                         ([picture], "none/a.apng", 25, "cannot write")):
+        with pytest.raises(lamina.Error, match=message):
+            lamina.save_film(pictures, tmp_path / name, fps=fps)
+    with pytest.raises(TypeError, match="expected pictures"):
+        lamina.save_film([3], tmp_path / "a.apng")
+    assert not list(tmp_path.iterdir())
 
 
 def test_threads_do_not_disturb_each_other(blob, function):

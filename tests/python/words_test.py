@@ -2,6 +2,9 @@
 """Words for what people change of a picture, as keywords."""
 import json
 import subprocess
+import sys
+import types
+import warnings
 
 import numpy as np
 import pytest
@@ -56,15 +59,83 @@ def test_a_traced_picture_has_its_words(blob, function):
     assert picture.compare(truth).linf < 1
 
 
+def extinction(picture, value):
+    """The extinction at a value, as a share of the largest."""
+    points = picture.scene["transfer_function"]["points"]
+    at = [point["extinction"] for point in points]
+    return np.interp(value, [point["value"] for point in points], at) / max(at)
+
+
+def test_opacity_can_be_numbers(blob):
+    spread = drawn(blob, opacity=[0, 0.25, 1], clim=(0.2, 0.8))
+    for value, share in ((0.2, 0), (0.35, 0.125), (0.5, 0.25), (0.65, 0.625), (0.8, 1)):
+        assert extinction(spread, value) == pytest.approx(share, abs=1e-6)
+    assert np.array_equal(drawn(blob, opacity=np.array([0, 0.25, 1]), clim=(0.2, 0.8)).array, spread.array)
+    assert np.array_equal(drawn(blob, opacity="0,.25,1", clim=(0.2, 0.8)).array, spread.array)
+    # Pairs have values of their own, and are constant outside.
+    pairs = drawn(blob, opacity=[(0.3, 0), (0.4, 0.5), (0.9, 0.2)])
+    for value, share in ((0.3, 0), (0.35, 0.5), (0.4, 1), (0.65, 0.7), (0.9, 0.4), (0.95, 0.4)):
+        assert extinction(pairs, value) == pytest.approx(share, abs=1e-6)
+
+
+class Map:
+    """What lamina asks of matplotlib's colour maps."""
+
+    def __init__(self, colors):
+        self.colors, self.N = np.asarray(colors, float), len(colors)
+
+    def __call__(self, index):
+        return np.column_stack([self.colors[index], np.ones(len(index))])
+
+
+def color(picture, value):
+    points = picture.scene["transfer_function"]["points"]
+    linear = [np.interp(value, [point["value"] for point in points], [point["color"][c] for point in points]) for c in range(3)]
+    return [12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055 for x in linear]
+
+
+def test_a_map_can_be_matplotlibs(blob, monkeypatch):
+    many = Map([(i / 255, 0.5, 1 - i / 255) for i in range(256)])
+    picture = drawn(blob, cmap=many, clim=(0.2, 0.8))
+    # Points of lines in sRGB: colours are within 1/255.
+    for value in (0.2, 0.3, 0.5, 0.8):
+        share = (value - 0.2) / 0.6
+        assert color(picture, value) == pytest.approx([share, 0.5, 1 - share], abs=1 / 255)
+    few = drawn(blob, cmap=Map([(1, 0, 0), (0, 1, 0), (0, 0, 1)]), clim=(0, 1))
+    for value, expected in ((0.1, [1, 0, 0]), (0.3, [1, 0, 0]), (0.36, [0, 1, 0]), (0.64, [0, 1, 0]), (0.9, [0, 0, 1])):
+        assert color(few, value) == pytest.approx(expected, abs=1e-6)
+    # A name that lamina has not is looked up there, and only then.
+    monkeypatch.setitem(sys.modules, "matplotlib", types.SimpleNamespace(colormaps={"strange": many, "viridis": None}))
+    assert np.array_equal(drawn(blob, cmap="strange", clim=(0.2, 0.8)).array, picture.array)
+    drawn(blob, cmap="viridis")
+    monkeypatch.setitem(sys.modules, "matplotlib", None)  # importing it is an ImportError
+    with pytest.raises(lamina.Error, match="colormap strange: no such file, and no colour map has that name"):
+        drawn(blob, cmap="strange")
+
+
+def test_a_scenes_map_in_hu_on_other_data_is_warned_of(blob):
+    bone = {"colormap": "ct-bone"}
+    with pytest.warns(lamina.PictureWarning, match="transfer_function.colormap: found values from .* expected HU for ct-bone"):
+        drawn(blob, transfer_function=bone)
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", message=".*HU.*")
+        drawn(blob, transfer_function={**bone, "colormap_range": [0, 1]})
+        drawn(blob, transfer_function=bone, cmap="greys")
+        drawn(lamina.Volume(blob.array * 2000 - 1000, spacing=(0.1, 0.1, 0.2)), transfer_function=bone)
+
+
 def test_mistakes_are_named(blob):
     for words, message in (({"up": "z"}, "up z: expected"), ({"view": "north"}, "view north: expected"),
                            ({"preset": "bone"}, "preset bone: expected one of ct-bone"), ({"clip": "x"}, "clip x: expected"),
-                           ({"preset": "ct-bone"}, "expected HU for ct-bone"), ({"clim": (2, 1)}, "range 2.0,1.0: expected")):
+                           ({"preset": "ct-bone"}, "expected HU for ct-bone"), ({"clim": (2, 1)}, "range 2.0,1.0: expected"),
+                           ({"opacity": [0, 2]}, "opacity 0.0,2.0: expected linear"), ({"opacity": [0, 0]}, "not all 0"),
+                           ({"opacity": [(1, 0), (0, 1)]}, "with rising values")):
         with pytest.raises(lamina.Error, match=message):
             drawn(blob, **words)
     for words, message in (({"clim": 3}, "clim: found 3, expected two numbers"), ({"up": 3}, "up: found 3, expected a word"),
                            ({"zoom": "big"}, "zoom: found 'big', expected a number"),
-                           ({"crop": (1, 2)}, "crop: found")):
+                           ({"crop": (1, 2)}, "crop: found"), ({"opacity": [1]}, "opacity: found"),
+                           ({"opacity": [(1, 2, 3), (1, 2, 3)]}, "opacity: found"), ({"cmap": 3}, "cmap: found 3")):
         with pytest.raises(TypeError, match=message):
             drawn(blob, **words)
 

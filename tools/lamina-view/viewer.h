@@ -13,6 +13,7 @@
 #include "model/frame_history.h"
 #include "model/navigator.h"
 #include "model/viewer_settings.h"
+#include "panels/clip_menus.h"
 #include "panels/panel.h"
 #include "panels/typed_input.h"
 #include "work/draw_worker.h"
@@ -95,6 +96,7 @@ class Viewer {
     std::vector<std::unique_ptr<Panel>> panels_;
     PathPrompt prompt_;
     CameraControl control_;
+    ClipMenus clip_menus_;
     PictureArea area_;
     glm::dvec2 pointer_{-1};
     std::optional<SeenPoint> seen_;  // visible point of the data under the pointer

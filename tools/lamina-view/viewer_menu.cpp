@@ -108,7 +108,7 @@ void Viewer::draw_view_menu() {
     ImGui::MenuItem("Panels", "Tab", &settings_.panels);
 }
 
-// The words of the command line that are one of a list (docs/first-picture.md).
+// The words of the command line (docs/first-picture.md): those that are one of a list, and clips.
 void Viewer::draw_look_menu() {
     const bool there = document_.is_open() && document_.scene().camera.is_given();
     const auto draw_words = [&](const char* title, const char* member, std::string Words::*word) {
@@ -128,6 +128,14 @@ void Viewer::draw_look_menu() {
         document_.edit([](Scene& scene) { scene.lighting.reset(); }, "no light");
     draw_words("Opacity", "opacity", &Words::opacity);
     draw_words("Preset", "preset", &Words::preset);
+    if (ImGui::BeginMenu("Clip", there)) {
+        clip_menus_.draw_clip(document_, shown_->bounds);
+        ImGui::EndMenu();
+    }
+    if (ImGui::BeginMenu("Crop", there)) {
+        clip_menus_.draw_crop(document_, shown_->bounds);
+        ImGui::EndMenu();
+    }
 }
 
 std::string Viewer::status() const {

@@ -3,20 +3,15 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/output_file.h"
+#include "image/film_file.h"
 #include "render_output.h"
 
 namespace lamina {
-
-// A kind of film, by the suffix of its file.
-struct FilmFormat {
-    const char* suffix;
-    const char* encoder;  // ffmpeg's name of it; null: lamina writes the file itself
-    bool alpha;           // can be transparent
-};
 
 // Returns true if the name of an output has the suffix of a film.
 bool is_film(const std::string& output);
@@ -38,16 +33,9 @@ class Film : public RenderOutput {
     std::string draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes attributes) override;
 
   private:
-    void encode();
-    void encode_gif(const std::vector<std::string>& input);
-    // Runs ffmpeg, which reads all frames. `files`: as Ffmpeg() takes them.
-    void run_ffmpeg(const std::vector<std::string>& arguments, const std::vector<int>& files);
-
-    FilmFormat format_;
     std::string name_;
     int rate_;
-    bool transparent_;
-    std::filesystem::path ffmpeg_;  // the program; empty if the format needs none
+    std::optional<FilmFile> film_;
     std::unique_ptr<SeriesOutput> frames_;
     std::unique_ptr<OutputFile> file_;
 };

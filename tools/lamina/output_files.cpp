@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "image/film_file.h"
 #include "image/picture.h"
 #include "mesh_files/mesh_file.h"
 #include "scene/given_transfer.h"
@@ -103,7 +104,13 @@ PictureFormat picture_format(const std::string& output, const std::string& forma
     const auto found = format_of(piped ? format : suffix.substr(suffix.empty() ? 0 : 1));
     if (found) return *found;
     if (piped) throw UsageError(fmt::format("--format {}: expected one of png, exr, npy", format));
-    throw UsageError(fmt::format("-o {}: {}", output, refusal_of_suffix(suffix)));
+    std::error_code unknown;
+    if (std::filesystem::is_directory(output, unknown)) {
+        throw UsageError(fmt::format(
+            "-o {}: is a folder, expected a file that ends in .png, .exr or .npy", output));
+    }
+    throw UsageError(fmt::format("-o {}: {}; films end in {}", output, refusal_of_suffix(suffix),
+                                 film_suffixes));
 }
 
 }  // namespace lamina

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +13,7 @@
 #include <new>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -20,6 +22,7 @@
 #include "base/large_stack.h"
 #include "base/process.h"
 #include "git_commit.h"
+#include "lamina/words.h"
 #include "mesh_files/mesh_file.h"
 #include "simd/instruction_set.h"
 #include "volume_files/volume_file.h"
@@ -119,6 +122,44 @@ std::vector<char*> with_verb(const CLI::App& app, int argc, char** argv) {
     return arguments;
 }
 
+// Gives the word `headlight` to each --light that a file follows: CLI11 takes the file for the
+// word.
+void fill_in_light(std::vector<char*>& arguments) {
+    static char filled[] = "--light=headlight";
+    const std::vector<std::string> known = known_words("light");
+    for (std::size_t i = 1; i + 1 < arguments.size(); ++i) {
+        const std::string next = arguments[i + 1];
+        if (std::string_view(arguments[i]) != "--light" || std::ranges::count(known, next) > 0)
+            continue;
+        const bool file = next == "-" || next.find_first_of("./") != next.npos || names_data(next);
+        if (file) arguments[i] = filled;
+    }
+}
+
+// Returns what CLI11 found wrong, for people.
+std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
+    const std::string text = one_line(error.what());
+    const std::string_view twice = ": At Most 1 required but received ";
+    if (const std::size_t at = text.find(twice); at != text.npos) {
+        return fmt::format("{}: found {} times, expected once", text.substr(0, at),
+                           text.substr(at + twice.size()));
+    }
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return text;
+    for (const CLI::App* const verb : app.get_subcommands()) {
+        std::set<std::string> known;
+        for (const CLI::Option* const option : verb->get_options())
+            for (const std::string& name : option->get_lnames()) known.insert("--" + name);
+        const std::vector<std::string> extras = verb->remaining();
+        if (extras.empty()) continue;
+        const std::string& first = extras.front();
+        if (!first.starts_with("--")) return fmt::format("{}: not expected here", first);
+        // A list of all options would say less than --help.
+        const std::string near = suggestion(known, first.substr(0, first.find('=')));
+        return fmt::format("{}: no such option{}", first, near.starts_with(", did") ? near : "");
+    }
+    return text;
+}
+
 int run(const Program& program, int argc, char** argv) {
     int exit_code = 0;
     CLI::App app(program.description, program.name);
@@ -132,7 +173,8 @@ int run(const Program& program, int argc, char** argv) {
         for (CLI::Option* const option : verb->get_options())
             if (option->get_positional()) option->type_name("");
     }
-    const std::vector<char*> arguments = with_verb(app, argc, argv);
+    std::vector<char*> arguments = with_verb(app, argc, argv);
+    fill_in_light(arguments);
     try {
         app.parse(static_cast<int>(arguments.size()), arguments.data());
     } catch (const CLI::Success& success) {  // --help, --version
@@ -141,7 +183,7 @@ int run(const Program& program, int argc, char** argv) {
         write_result(text.str());
     } catch (const CLI::ParseError& error) {
         return report(
-            fmt::format("{} ({} --help shows the usage)", one_line(error.what()), program.name), 2);
+            fmt::format("{} ({} --help shows the usage)", text_of(error, app), program.name), 2);
     }
     flush_results();
     return exit_code;

@@ -12,14 +12,16 @@
 #include "base/input_file.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
+#include "image/film_file.h"
 
 namespace lamina {
 namespace {
 
 [[noreturn]] void reject(const std::string& pattern, const std::string& found) {
     throw UsageError(
-        fmt::format("-o {}: {}, expected one number, as in out_%04d.png, in the name of the file",
-                    pattern, found));
+        fmt::format("-o {}: {}, expected one number, as in out_%04d.png, in the name of the file, "
+                    "or a film ({})",
+                    pattern, found, film_suffixes));
 }
 
 // Returns the directive that begins with the percent sign at `at`: "%%", or a number like "%04d".

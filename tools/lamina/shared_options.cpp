@@ -256,7 +256,8 @@ void add_color_words(CLI::App& verb, Words& words) {
         ->allow_extra_args(false);
     add_word(verb, "--opacity", words.opacity, "NAME",
              "How opacity grows over the values that show: linear, geom, sigmoid, sigmoid_1 to "
-             "sigmoid_20, foreground; linear_r and geom_r fall");
+             "sigmoid_20, foreground; linear_r and geom_r fall; or numbers from 0 to 1, as 0,.2,.9 "
+             "spread evenly or 10:0,20:.5 at values");
     add_word(verb, "--preset", words.preset, "NAME",
              "Colours, opacity and light for a kind of data: ct-bone, ct-soft-tissue, ct-lung, "
              "ct-angio (all in HU), mr, microscopy");
@@ -322,11 +323,20 @@ std::vector<std::string> settings_of(const ViewOptions& options) {
     if (!options.size.empty()) {
         const auto [width, height] =
             pair_of<int>("--size", options.size, 'x', "WxH in pixels, as in 800x600");
+        if (width < 1 || height < 1) {
+            throw UsageError(fmt::format("--size {}: expected 1 pixel or more each, as in 800x600",
+                                         options.size));
+        }
         settings.push_back(fmt::format("image.width={}", width));
         settings.push_back(fmt::format("image.height={}", height));
     }
     if (!options.background.empty()) settings.push_back("image.background=" + options.background);
     if (options.transparent) settings.emplace_back("image.transparent=true");
+    if (options.transparent && !options.background.empty()) {
+        warn(
+            "--transparent: there is no background; --background only says whether annotations are "
+            "dark or light");
+    }
     const auto add = [&](const char* key, const std::string& value) {
         settings.push_back(fmt::format("image.annotations.{}={}", key, value));
     };

@@ -216,9 +216,14 @@ void Document::redo() {
     move_step(redo_, undo_);
 }
 
-void Document::adjust(Words words, const std::string& name) {
+void Document::adjust(Words words, const std::string& name,
+                      const std::function<void(Scene&)>& before) {
     begin_step(name, true);
     end_step();
+    if (before) {
+        before(scene_);
+        ++revisions_.clip;
+    }
     words_ = std::make_shared<const Words>(std::move(words));
     ++revisions_.settings;
 }

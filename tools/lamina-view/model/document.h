@@ -78,8 +78,10 @@ class Document {
     void redo();
 
     // Asks for changes by words (lamina/words.h), as a step: the session makes them
-    // (DrawRequest::words) when it chooses the next time.
-    void adjust(Words words, const std::string& name);
+    // (DrawRequest::words) when it chooses the next time. `before`: changes the clip that they add
+    // to.
+    void adjust(Words words, const std::string& name,
+                const std::function<void(Scene&)>& before = {});
     // The changes that the session has not made yet; null if there are none.
     const std::shared_ptr<const Words>& words() const { return words_; }
 

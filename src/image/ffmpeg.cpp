@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ffmpeg.h"
+#include "image/ffmpeg.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -77,7 +77,7 @@ std::filesystem::path require_ffmpeg(const std::string& output, const std::strin
     const auto program = find_program("ffmpeg");
     if (!program) {
         fail(
-            "-o {}: found no program ffmpeg in PATH, which makes films: expected it (on Debian and "
+            "{}: found no program ffmpeg in PATH, which makes films: expected it (on Debian and "
             "Ubuntu: apt install ffmpeg), or a film.apng, which needs none",
             output);
     }
@@ -88,7 +88,7 @@ std::filesystem::path require_ffmpeg(const std::string& output, const std::strin
     for (std::string word; words >> word;)
         if (word == encoder) return *program;
     fail(
-        "-o {}: {} has no encoder {}: expected an ffmpeg with it, or a film.apng, which needs none",
+        "{}: {} has no encoder {}: expected an ffmpeg with it, or a film.apng, which needs none",
         output, program->string(), encoder);
 }
 
