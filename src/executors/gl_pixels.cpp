@@ -2,11 +2,12 @@
 #include "executors/gl_pixels.h"
 
 #include <algorithm>
-#include <bit>
+#include <cstring>
 #include <glm/gtc/packing.hpp>
 #include <span>
 
 #include "base/enum_words.h"
+#include "base/parallel.h"
 
 namespace lamina {
 namespace {
@@ -21,26 +22,14 @@ std::int64_t ceil_to(std::int64_t value, std::int64_t step) {
     return (value + step - 1) / step * step;
 }
 
-// Sets the four channels of a pixel from its words.
-void unpack(PixelPacking packing, const std::uint32_t* words, double largest, float* rgba) {
-    for (int channel = 0; channel < 4; ++channel) {
-        const std::uint32_t pair = words[packing == PixelPacking::bytes ? 0 : channel / 2];
-        const auto half = static_cast<std::uint16_t>(channel % 2 != 0 ? pair >> 16 : pair);
-        switch (packing) {
-            case PixelPacking::floats:
-                rgba[channel] = std::bit_cast<float>(words[channel]);
-                break;
-            case PixelPacking::halves:
-                rgba[channel] = glm::unpackHalf1x16(half);
-                break;
-            case PixelPacking::shorts:
-                rgba[channel] = static_cast<float>(half / largest);
-                break;
-            case PixelPacking::bytes:
-                rgba[channel] = static_cast<float>((pair >> (8 * channel) & 255) / largest);
-                break;
-        }
-    }
+// Unpacks numbers of so many bits, whose values these are.
+template <int bits>
+void unpack(const std::uint32_t* words, const std::vector<float>& values,
+            std::span<float> numbers) {
+    constexpr std::size_t in_word = 32 / bits;
+    constexpr std::uint32_t mask = (1u << bits) - 1;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        numbers[i] = values[words[i / in_word] >> (bits * (i % in_word)) & mask];
 }
 
 }  // namespace
@@ -106,18 +95,30 @@ void GlPixels::read(Image& image, double largest) const {
         words_.read(std::span(image.rgba));
         return;
     }
+    set_values(largest);
     read_words_.resize(words_.byte_count() / sizeof(std::uint32_t));
     words_.read(std::span(read_words_));
-    for (int row = 0; row < height_; ++row) {
-        const std::uint32_t* const from =
-            read_words_.data() +
-            static_cast<std::size_t>(row) * static_cast<std::size_t>(row_words_);
-        if (packing_ == PixelPacking::floats) {
-            std::copy_n(reinterpret_cast<const float*>(from), 4 * width_, image.pixel(0, row));
-            continue;
-        }
-        for (int column = 0; column < width_; ++column)
-            unpack(packing_, from + words * column, largest, image.pixel(column, row));
+    parallel_for(height_, 16, [&](std::int64_t row) {
+        const std::uint32_t* const from = read_words_.data() + row * row_words_;
+        const std::span numbers(image.pixel(0, static_cast<int>(row)),
+                                4 * static_cast<std::size_t>(width_));
+        if (packing_ == PixelPacking::floats)
+            std::memcpy(numbers.data(), from, numbers.size_bytes());
+        else if (packing_ == PixelPacking::bytes)
+            unpack<8>(from, values_, numbers);
+        else
+            unpack<16>(from, values_, numbers);
+    });
+}
+
+void GlPixels::set_values(double largest) const {
+    if (packing_ == PixelPacking::floats || largest == largest_) return;
+    largest_ = largest;
+    values_.resize(packing_ == PixelPacking::bytes ? 1 << 8 : 1 << 16);
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+        values_[i] = packing_ == PixelPacking::halves
+                         ? glm::unpackHalf1x16(static_cast<std::uint16_t>(i))
+                         : static_cast<float>(static_cast<double>(i) / largest);
     }
 }
 

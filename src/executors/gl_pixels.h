@@ -40,10 +40,15 @@ class GlPixels {
     void read(Image& image, double largest) const;
 
   private:
+    void set_values(double largest) const;  // unless they are set
+
     PixelPacking packing_;
     int width_, height_, row_words_;
     gl::Buffer words_;
-    mutable std::vector<std::uint32_t> read_words_;  // kept, so that no frame allocates
+    // read() keeps the following, so that no frame allocates.
+    mutable std::vector<std::uint32_t> read_words_;
+    mutable std::vector<float> values_;  // the values of all numbers of 8 or 16 bits
+    mutable double largest_ = 0;         // the largest code, for which these are
 };
 
 }  // namespace lamina

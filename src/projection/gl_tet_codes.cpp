@@ -73,6 +73,7 @@ TilePixelBits pixels_in_tile(const PixelArea& area, const TetOutline& outline, i
     greatest.fill(static_cast<float>(std::min(area.last_column - column, size - 1)));
     const auto from_area = static_cast<float>(column - area.first_column);
     for (std::size_t line = 0; line < outline.per_row.size(); ++line) {
+        if (outline.at_first[line] == TetOutline::none) continue;
         const float per_row = outline.per_row[line];
         const float first =
             outline.at_first[line] + per_row * static_cast<float>(row - area.first_row) - from_area;

@@ -31,9 +31,12 @@ def thick_fog(folder, edge):
 
 def timed(folder, quick):
     """The scenes of the table in docs/gpu.md, then the others that are shipped."""
+    bonsai, bluntfin = scenes.find("bonsai"), scenes.find("bluntfin")
     lit = scenes.BenchScene("bonsai, lit", scenes.ROOT / "data" / "scenes" / "bonsai_lit.json")
-    table = [scenes.find("bonsai"), thick_fog(folder, 64 if quick else 1024), scenes.find("bluntfin"),
-             *map(scenes.kuhn, (8, 12) if quick else (60, 119)), lit]
+    coded = [scenes.BenchScene(f"{scene.name}, codes", scene.path, ["--set", "render.target=emulated"])
+             for scene in (bonsai, bluntfin)]
+    table = [bonsai, thick_fog(folder, 64 if quick else 1024), bluntfin,
+             *map(scenes.kuhn, (8, 12) if quick else (60, 119)), lit, *coded]
     others = ["gaussians"] if quick else [name for name in scenes.STANDARD if name not in ("bonsai", "bluntfin")]
     return [*table, *map(scenes.find, others)]
 
