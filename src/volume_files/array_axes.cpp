@@ -292,7 +292,8 @@ constexpr LengthKey step_keys[] = {
     {"voxel_size_mm", "mm"},   {"pixel_size_um", "um"}, {"resolution", ""},
     {"voxel_size", ""},        {"voxelSize", ""},       {"VoxelSize", ""},
     {"voxelsize", ""},         {"spacing", ""},         {"Spacing", ""},
-    {"pixelSize", ""},         {"PixelSize", ""},       {"pixel_size", ""},
+    {"pixelSize", ""},         {"PixelSize", ""},       {"PixelSpacing", ""},
+    {"pixel_spacing", ""},     {"voxel_spacing", ""},   {"pixel_size", ""},
     {"element_size", ""},      {"pixelResolution", ""}, {"gridSpacing", ""}};
 constexpr LengthKey place_keys[] = {{"origin", ""}, {"Origin", ""},      {"offset", ""},
                                     {"Offset", ""}, {"translation", ""}, {"gridGlobalOffset", ""}};

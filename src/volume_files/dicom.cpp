@@ -209,7 +209,10 @@ void expect_alike(const Slices& slices) {
                  first_frame->row_spacing, first->file.filename().string());
         }
         if (slices.size() > 1 && !frame->position)
-            fail("{}: ImagePositionPatient: found none, expected one", name);
+            fail(
+                "{}: ImagePositionPatient: found none, expected one in each file, or in none and "
+                "SliceLocation or InstanceNumber, which tell slices apart",
+                name);
     }
 }
 
@@ -295,6 +298,7 @@ DicomSeries read_dicom_series(const Path& path, const VolumeRequest& request,
     series.name = path.string();
     series.images = chosen_series(path, request, contents);
     remove_copies(series.images, series.name);
+    place_by_numbers(series.images, series.name);
     const Slices slices = without_localizers(series.images, series.name);
     expect_alike(slices);
     const DicomFrame& first = *slices[0].frame;

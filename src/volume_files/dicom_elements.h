@@ -28,7 +28,7 @@ constexpr DicomTag media_class = 0x00020002, transfer_syntax = 0x00020010, image
                    effective_echo_time = 0x00189082, diffusion_b = 0x00189087,
                    mosaic_images = 0x0019100a, mosaic_normal = 0x00191027, series = 0x0020000e,
                    acquisition_number = 0x00200012, instance_number = 0x00200013,
-                   position = 0x00200032, orientation = 0x00200037,
+                   position = 0x00200032, orientation = 0x00200037, slice_location = 0x00201041,
                    temporal_identifier = 0x00200100, temporal_index = 0x00209128,
                    trigger_delay = 0x00209153, frame_acquisition_number = 0x00209156,
                    dimension_values = 0x00209157, samples_per_pixel = 0x00280002,

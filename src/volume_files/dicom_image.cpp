@@ -257,6 +257,8 @@ std::optional<DicomImage> read_dicom_image(const std::filesystem::path& file) {
         fail("{}: NumberOfFrames: found {}, expected 1 to {}", file.string(), frames, most_frames);
     }
     image.frame_count = static_cast<std::int64_t>(frames);
+    image.number = elements.number(dicom_tag::instance_number);
+    image.location = elements.number(dicom_tag::slice_location);
     image.is_localizer =
         elements.text(dicom_tag::image_type).find("LOCALIZER") != std::string::npos;
     // Either says how an image is shown (PS3.3, C.7.6.3.1.2 and C.11.6.1.2), which a warning tells.

@@ -44,7 +44,9 @@ struct DicomImage {
     std::int64_t columns = 0, rows = 0, frame_count = 1;  // as the pixels lie in the file
     std::int64_t slice_columns = 0, slice_rows = 0;       // of each of `frames`
     std::vector<DicomFrame> frames;
-    double frame_spacing = 1;  // of a single frame, in mm
+    double frame_spacing = 1;                // of a single frame, in mm
+    const char* spacing_words = "";          // attribute that gives it; empty: none does
+    std::optional<double> number, location;  // InstanceNumber, SliceLocation
 
     // A pixel has the bits of `type`, of which the `stored_bits` bits up to bit `high_bit` hold its
     // value. `big_endian`: byte order of pixels of more than 8 bits. `swapped_bytes`: 8-bit pixels

@@ -114,6 +114,9 @@ void set_frame_spacing(const DicomElements& elements, DicomImage& image, bool is
     const double between = elements.number(dicom_tag::slice_spacing).value_or(0);
     const double thickness = elements.number(dicom_tag::slice_thickness).value_or(0);
     image.frame_spacing = between != 0 ? between : thickness != 0 ? thickness : 1;
+    image.spacing_words = between != 0     ? "SpacingBetweenSlices"
+                          : thickness != 0 ? "SliceThickness"
+                                           : "";
     if (is_used && between == 0) {
         image.missing.emplace_back(thickness != 0 ? "SpacingBetweenSlices (SliceThickness is taken)"
                                                   : "SpacingBetweenSlices (1 mm is taken)");
@@ -273,6 +276,45 @@ void place_frames(const DicomElements& elements, DicomImage& image) {
     set_frame_spacing(elements, image, false);
     if (count > 1 && placed == 0) spread_frames(elements, image);
     cut_mosaic(elements, image);
+}
+
+void place_by_numbers(std::vector<DicomImage>& images, const std::string& name) {
+    const auto is_single = [](const DicomImage& image) {
+        return image.frames.size() == 1 && !image.frames[0].position;
+    };
+    if (images.size() < 2 || !std::ranges::all_of(images, is_single)) return;
+    // Tells if all images have a number, and these differ.
+    const auto tell_apart = [&](std::optional<double> DicomImage::*member) {
+        std::vector<double> numbers;
+        for (const DicomImage& image : images)
+            if ((image.*member).has_value()) numbers.push_back(*(image.*member));
+        std::ranges::sort(numbers);
+        return numbers.size() == images.size() &&
+               std::ranges::adjacent_find(numbers) == numbers.end();
+    };
+    const bool by_location = tell_apart(&DicomImage::location);
+    if (!by_location && !tell_apart(&DicomImage::number)) return;
+    const auto member = by_location ? &DicomImage::location : &DicomImage::number;
+    std::vector<DicomImage*> sorted;
+    for (DicomImage& image : images) sorted.push_back(&image);
+    std::ranges::sort(sorted, {}, [&](const DicomImage* image) { return *(image->*member); });
+    const double spacing = std::abs(images[0].frame_spacing);
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        DicomFrame& frame = sorted[i]->frames[0];
+        const double depth = by_location ? *(sorted[i]->*member) : static_cast<double>(i) * spacing;
+        frame.position = depth * glm::cross(frame.along_row, frame.along_column);
+        sorted[i]->place_words = by_location ? "SliceLocation" : "InstanceNumber";
+    }
+    if (by_location) {
+        warn(fmt::format("{}: found no ImagePositionPatient: slices lie at their SliceLocation",
+                         name));
+        return;
+    }
+    const std::string words = images[0].spacing_words;
+    warn(
+        fmt::format("{}: found no ImagePositionPatient: slices are taken in the order of "
+                    "InstanceNumber, {} mm apart ({}); \"spacing\" in the volume sets another",
+                    name, spacing, words.empty() ? "no file says it" : words));
 }
 
 SliceLine fitted_line(const std::vector<SlicePlace>& slices, const std::string& file,

@@ -14,6 +14,11 @@ namespace lamina {
 // phases apart. columns, rows and frame_count must be set before. Throws Error.
 void place_frames(const DicomElements& elements, DicomImage& image);
 
+// Places the images of a series if no file gives a place, as in secondary captures and exports of
+// microscopic CT: by SliceLocation, else in the order of InstanceNumber, and says so. Does nothing
+// if these do not tell all slices apart.
+void place_by_numbers(std::vector<DicomImage>& images, const std::string& name);
+
 // Cuts a Siemens mosaic, an image that holds slices as tiles, into its slices, whose number and
 // normal its CSA header has. Sets image.refusal if that is missing. Does nothing to other images.
 // Throws Error if the header is damaged.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -143,7 +144,11 @@ void warn_of_series(const std::string& name, const std::vector<std::filesystem::
     if (files.size() < 2) return;
     std::map<std::string, std::vector<NameParts>> series;
     for (const auto& file : files) {
-        const NameParts parts(file.filename().string());
+        std::string extension = file.extension().string();  // in any case
+        std::ranges::transform(extension, extension.begin(), [](unsigned char letter) {
+            return static_cast<char>(std::tolower(letter));
+        });
+        const NameParts parts(file.stem().string() + extension);
         series[parts.text].push_back(parts);
     }
     if (series.size() == files.size()) {

@@ -211,6 +211,23 @@ class Kinds:
         self.save("dcm_noiop", flat)
         self.case("dcm_noiop", array, says=["no ImageOrientationPatient (axial"])
 
+        # Without any place slices lie at their SliceLocation, else in the order of their numbers.
+        for word, says, origin, distance in (
+                ("SliceLocation", "slices lie at their SliceLocation", (0, 0, -5), 2),
+                ("SpacingBetweenSlices", "in the order of InstanceNumber, 3 mm apart (SpacingBetweenSlices)", (0, 0, 0), 3),
+                ("SliceThickness", "in the order of InstanceNumber, 2 mm apart (SliceThickness)", (0, 0, 0), 2)):
+            slices = self.stack(array)
+            for z, data in enumerate(slices):
+                del data.ImagePositionPatient, data.SliceThickness
+                data.InstanceNumber = 20 - z if word == "SliceLocation" else 3 + 2 * z
+                setattr(data, word, 2. * z - 5 if word == "SliceLocation" else distance)
+            self.save("dcm_by_" + word, slices[::-1])
+            self.case("dcm_by_" + word, array, says=[says], origin=origin, spacing=(.9, .7, distance))
+        for data in slices:
+            data.InstanceNumber = 1
+        self.save("dcm_nowhere", slices)
+        self.bad("dcm_nowhere", "ImagePositionPatient: found none", "SliceLocation or InstanceNumber")
+
         def moved(name, shifts, axis=2):
             slices = self.stack(array)
             for data, shift in zip(slices, shifts):

@@ -153,6 +153,13 @@ def labels(h5py, cases, write, add, bad):
             group[name] = np.arange(count) * step
             group[name].attrs["units"] = unit
     add("nexus.h5", array, diagonal(.5, .25, 2), unit="mm")
+    with h5py.File(cases.path("shuffled.h5"), "w") as file:
+        how = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+        how.set_chunk(SHAPE)
+        how.set_filter(32008, h5py.h5z.FLAG_OPTIONAL, (0, 0, 0, 0, 2))
+        data = h5py.h5d.create(file.id, b"v", h5py.h5t.NATIVE_INT16, h5py.h5s.create_simple(SHAPE), how)
+        data.write_direct_chunk((0, 0, 0), b"x" * 100)
+    bad("shuffled.h5", "found the filter 32008 (bitshuffle)", "h5repack", "hdf5plugin")
     with h5py.File(cases.path("signal.nxs"), "w") as file:
         for word in ("counts", "errors"):
             file[f"entry/data/{word}"] = array + (word == "errors")

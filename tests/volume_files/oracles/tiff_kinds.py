@@ -339,6 +339,9 @@ def folders(cases, tifffile):
     cases.refuse("dyes_tiff", "found 2 numbers that change in the names 's#_ch#.tif'")
     folder("stray", [("s1", pages[0]), ("s2", pages[1]), ("mask", pages[2])])
     cases.refuse("stray", "found 2 series of files")
+    folder("cases", [("s1", pages[0]), ("s2", pages[1]), ("s3", pages[2])])
+    os.rename(cases.path("cases/s2.tif"), cases.path("cases/s2.TIF"))
+    cases.add("cases", pages[:3])
     folder("letters", [("a", pages[0]), ("b", pages[1])])
     cases.add("letters", pages[:2], warnings=["alphabetical order"])
     # A stack in each file: times.
