@@ -178,6 +178,20 @@ TEST(AutomaticLight, IsNotChosenWhereItWouldBeRefused) {
                }();
            }),
            "render.slice.tree");
+    expect(reason_for([](Scene& scene) { scene.slice.samples = 255; }), "render.slice.samples");
+    expect(reason_for([](Scene& scene) {
+               TreeSettings tree;
+               tree.factors = {8, 8};
+               scene.slice.tree = tree;
+           }),
+           "render.slice.tree");
+    expect(reason_for([](Scene& scene) { scene.slice.filter = Filter::hardware; }),
+           "render.slice.filter");
+    // Slabs that are asked for are drawn as they are.
+    Scene slabs = picture_scene();
+    slabs.slice.samples = 32;
+    slabs.slice.classification = Classification::post;
+    EXPECT_TRUE(choose(slabs, scan.field).scene.lighting);
 }
 
 TEST(AutomaticLight, IsNotChosenUnlessTheSceneLeavesItOpen) {
