@@ -183,10 +183,11 @@ bool leaves_gradient_open(const Scene& scene) {
     return given != nullptr && given->smallest_gradient.is_automatic();
 }
 
-// Returns the length of gradients below which they count as noise.
-double smallest_gradient_of(const Padding& padding, const Field& field) {
+// Returns the length of gradients below which they count as noise. `bordered`: the field's range is
+// also that of a border that is left out.
+double smallest_gradient_of(const Padding& padding, const Field& field, bool bordered) {
     // The ends of the range may lie between the places that a distribution counts.
-    const ValueRange range = padding.values.empty()
+    const ValueRange range = (padding.values.empty() && !bordered) || padding.rest.empty()
                                  ? field.range()
                                  : ValueRange{padding.rest.lowest(), padding.rest.highest()};
     const double height = range.empty() ? 0 : range.hi - range.lo;
@@ -197,14 +198,14 @@ double smallest_gradient_of(const Padding& padding, const Field& field) {
 
 // Chooses whether the scene is lit, and the smallest gradient that is, if they are open.
 void choose_lighting(Choices& choices, const TransferSubject& subject,
-                     const ValueDistribution& values) {
+                     const ValueDistribution& values, bool bordered) {
     const Field& field = *subject.field;
     Scene& scene = choices.scene;
     const bool open = leaves_light_open(scene);
     if (!open && !leaves_gradient_open(scene)) return;
     const Padding padding =
         find_padding(values, field.whole_numbers(), field.least_padding_share());
-    const double smallest = smallest_gradient_of(padding, field);
+    const double smallest = smallest_gradient_of(padding, field, bordered);
     if (open) {
         const LightChoice light = choose_light(scene, subject, padding, smallest);
         choices.reasons.push_back("lighting: " + light.reason);
@@ -320,10 +321,42 @@ std::string choose_camera(const Adjustments& adjustments, const Field& field, bo
     return fmt::format("{}; view: {}", from.reason, name_of(*adjustments.side));
 }
 
+// Keeps those planes of a border's clip behind which something would show: the border itself, or
+// values between it and what is inside, as a skin. `own`: the clip without them.
+void clip_border(const BorderlessField& inner, const Clip& own, Choices& choices) {
+    Scene& scene = choices.scene;
+    scene.clip = own;
+    std::string values;
+    std::int64_t widest = 0;
+    std::vector<double> said;
+    for (const BorderSide& side : inner.sides) {
+        const auto [lo, hi] = std::minmax(side.value, side.behind);
+        if (scene.transfer_function->transparent(lo, hi)) continue;
+        scene.clip.planes.push_back(side.inside);
+        widest = std::max(widest, side.width);
+        if (std::ranges::find(said, side.value) != said.end()) continue;
+        said.push_back(side.value);
+        values += fmt::format("{}{:.9g}", values.empty() ? "" : " and ", side.value);
+    }
+    if (said.empty()) return;
+    choices.reasons.push_back(
+        fmt::format("clip: a border of {}, up to {} sample{} wide, is cut away (--crop :,:,: keeps "
+                    "it)",
+                    values, widest, widest == 1 ? "" : "s"));
+}
+
 // Chooses all but the directions of lights that were asked for.
-Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustments) {
+Choices choose_unlit(Scene asked, const Field& whole, const Adjustments& adjustments) {
     Choices choices{std::move(asked), {}};
     Scene& scene = choices.scene;
+    std::optional<BorderlessField> inner;
+    if (scene.transfer_function.is_automatic() && !scene.clip.box && !adjustments.own_crop &&
+        scene.clip.planes.size() + 6 <= Clip::most_planes)
+        inner = whole.without_border();
+    const Field& field = inner ? *inner->field : whole;
+    const Clip own = scene.clip;
+    if (inner)
+        for (const BorderSide& side : inner->sides) scene.clip.planes.push_back(side.inside);
     const bool lights = leaves_light_open(scene);
     const ValueDistribution values =
         scene.transfer_function.is_automatic() || lights || leaves_gradient_open(scene)
@@ -334,7 +367,7 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
                                       if (!path) path = median_path(scene, field);
                                       return *path;
                                   }};
-    if (!lights) choose_lighting(choices, subject, values);
+    if (!lights) choose_lighting(choices, subject, values, inner.has_value());
     if (!leaves_something_open(scene) && !adjustments.transfer_function() && !adjustments.camera())
         return choices;
     if (field.range().empty()) {
@@ -354,6 +387,7 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
     } else {
         change(*scene.transfer_function, adjustments.transfer, scene);
     }
+    if (inner) clip_border(*inner, own, choices);
     if (adjustments.opacity) {
         chosen.reason = take_opacity(adjustments, *scene.transfer_function);
         chosen.per_world_unit = false;
@@ -375,7 +409,7 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
         TransferFunction::linear({dense.knots().begin(), dense.knots().end()});
     scene.camera = zoomed(*scene.camera, adjustments.zoom);
     if (chooses_camera) choices.reasons.push_back(camera_text(*scene.camera, orientation));
-    if (lights) choose_lighting(choices, subject, values);
+    if (lights) choose_lighting(choices, subject, values, inner.has_value());
     return choices;
 }
 

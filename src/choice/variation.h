@@ -7,6 +7,7 @@
 #include "lamina/volume.h"
 #include "scene/scene.h"
 #include "volume/min_max_bricks.h"
+#include "volume/sample_source.h"
 
 namespace lamina {
 
@@ -49,7 +50,9 @@ class Variation {
 
 // Measure the variation at up to 2^18 places all over the data, which do not depend on threads or
 // on where the samples are kept. Places next to a value outside of `measured` are left out.
-Variation variation_of(const Volume& volume, const ValueRange& measured, const Variation& bins);
+// `inside`: the samples that count.
+Variation variation_of(const Volume& volume, const SampleBox& inside, const ValueRange& measured,
+                       const Variation& bins);
 // In a tet the gradient is constant, and all places are coherent.
 Variation variation_of(const SceneMesh& mesh, const ValueRange& measured, const Variation& bins);
 

@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t some_bins = 32;
 
 Variation measured_of(const Volume& volume, double lo, double hi) {
-    return variation_of(volume, {lo, hi}, Variation(lo, hi, some_bins));
+    return variation_of(volume, {{0, 0, 0}, volume.grid().size}, {lo, hi},
+                        Variation(lo, hi, some_bins));
 }
 
 // A linear field has one gradient, which differences give exactly, whatever the spacings.
