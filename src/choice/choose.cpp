@@ -75,7 +75,8 @@ double median_depth(Scene scene, const TransferFunction& transfer_function,
                     std::span<const glm::dvec3> points, const Field& field) {
     scene.transfer_function = transfer_function;
     scene.width = scene.height = square_side;
-    const Orientation from = orientation_of(field.axes(), field.corners());
+    const Orientation from =
+        orientation_of(field.axes(), field.corners(), {}, field.axial_slices());
     scene.camera =
         fitted_camera(points, from.front, turn_to(ViewSide::iso, from), square_side, square_side);
     std::vector<double> depths = field.optical_depths(scene);
@@ -309,7 +310,8 @@ void add_lights(const Adjustments& adjustments, Choices& choices) {
 // people.
 std::string choose_camera(const Adjustments& adjustments, const Field& field, bool per_world_unit,
                           Scene& scene) {
-    const Orientation from = orientation_of(field.axes(), field.corners(), adjustments.up);
+    const Orientation from =
+        orientation_of(field.axes(), field.corners(), adjustments.up, field.axial_slices());
     ViewTurn turn = turn_to(adjustments.side.value_or(ViewSide::iso), from);
     turn.azimuth += adjustments.turn.azimuth;
     turn.elevation += adjustments.turn.elevation;

@@ -379,6 +379,22 @@ double VolumeField::spacing() const {
     return smallest;
 }
 
+// Whole numbers in square slices, whose distance is another one than that of their rows, and that
+// are as large in millimetres as a part of a body, are most probably CT or MR.
+bool VolumeField::axial_slices() const {
+    constexpr double least_body = 50, least_slice = 100, most_slice = 700;  // mm
+    const Grid& grid = volume_.grid();
+    std::array<double, 3> distance, length;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!(grid.step[axis][static_cast<int>(axis)] > 0)) return false;  // not along the world's
+        distance[axis] = glm::length(grid.step[axis]);
+        length[axis] = distance[axis] * static_cast<double>(grid.size[axis]);
+    }
+    return grid.axes == WorldAxes::unnamed && whole_numbers() && grid.size[0] == grid.size[1] &&
+           distance[0] == distance[1] && distance[2] != distance[0] && length[0] >= least_slice &&
+           length[0] <= most_slice && length[2] >= least_body;
+}
+
 const VolumeLabels* VolumeField::labels() const {
     static const VolumeLabels nothing;
     if (!whole_numbers() || volume_.grid().lookup == VolumeLookup::linear) return nullptr;

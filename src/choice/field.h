@@ -45,7 +45,9 @@ class Field {
   public:
     virtual ~Field() = default;
 
-    virtual WorldAxes axes() const = 0;           // named for meshes: in simulations z is up
+    virtual WorldAxes axes() const = 0;  // named for meshes: in simulations z is up
+    // Tells whether the data seem to be axial slices of a body from head to feet.
+    virtual bool axial_slices() const { return false; }
     virtual Quantity quantity() const = 0;        // that the values measure
     virtual std::string length_unit() const = 0;  // of the world; empty if it is unknown
     virtual ValueRange range() const = 0;         // range of the finite values
@@ -91,6 +93,7 @@ class VolumeField : public Field {
         : VolumeField(data.volume, data.bricks, data.values ? &*data.values : nullptr) {}
 
     WorldAxes axes() const override { return volume_.grid().axes; }
+    bool axial_slices() const override;
     Quantity quantity() const override { return volume_.quantity(); }
     std::string length_unit() const override { return volume_.grid().unit; }
     ValueRange range() const override { return bricks_.whole; }
