@@ -19,9 +19,8 @@
 namespace lamina {
 namespace {
 
-constexpr double median_opacity = .9;  // median of the rays that meet something visible
-constexpr double seen_share = 1e-3;    // of the largest extinction; fitted cameras ignore less
-constexpr double seen_depth = .01;     // over the diagonal of the data, likewise
+constexpr double seen_share = 1e-3;  // of the largest extinction; fitted cameras ignore less
+constexpr double seen_depth = .01;   // over the diagonal of the data, likewise
 
 double largest_extinction(const TransferFunction& transfer_function) {
     const auto knots = transfer_function.knots();
@@ -89,8 +88,9 @@ double median_depth(Scene scene, const TransferFunction& transfer_function,
     return *middle;
 }
 
-// Scales relative extinctions for median_opacity; not at all if no ray meets anything.
-void take_density(const Field& field, Scene& scene) {
+// Scales relative extinctions for this opacity of the median ray; not at all if no ray meets
+// anything.
+void take_density(const Field& field, double median_opacity, Scene& scene) {
     scene.transfer_function = per_diagonal(*scene.transfer_function, field);
     Scene bare = scene;  // annotations change no density
     bare.annotations = {};
@@ -393,6 +393,7 @@ Choices choose_unlit(Scene asked, const Field& whole, const Adjustments& adjustm
     if (adjustments.opacity) {
         chosen.reason = take_opacity(adjustments, *scene.transfer_function);
         chosen.per_world_unit = false;
+        chosen.median_opacity = AutomaticTransfer().median_opacity;
     }
     std::string orientation;
     if (chooses_camera)
@@ -400,7 +401,7 @@ Choices choose_unlit(Scene asked, const Field& whole, const Adjustments& adjustm
     else
         scene.camera = turned(*scene.camera, adjustments.turn);
     if (chooses_function || adjustments.opacity) {
-        if (!chosen.per_world_unit) take_density(field, scene);
+        if (!chosen.per_world_unit) take_density(field, chosen.median_opacity, scene);
         choices.reasons.push_back(fmt::format(
             "transfer function: {}; extinction up to {:.4g} per unit of length", chosen.reason,
             adjustments.density * largest_extinction(*scene.transfer_function)));

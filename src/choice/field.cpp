@@ -519,6 +519,25 @@ ValueDistribution MeshField::distribution() const {
     return ValueDistribution(std::move(values));
 }
 
+double MeshField::surface_outside(const ValueRange& range) const {
+    double all = 0, outside = 0;
+    for (const TetFace& face : mesh_.mesh.open_faces()) {
+        const Tet& tet = mesh_.mesh.tets()[static_cast<std::size_t>(face.tet)];
+        double share = 0;
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            const double value = mesh_.scalar.values[static_cast<std::size_t>(tet[corner])];
+            if (corner != static_cast<std::size_t>(face.face) &&
+                (value < range.lo || value > range.hi))
+                share += 1. / 3;
+        }
+        const auto at = mesh_.mesh.corners(face);
+        const double area = glm::length(glm::cross(at[1] - at[0], at[2] - at[0]));
+        all += area;
+        outside += share * area;
+    }
+    return all > 0 ? outside / all : 0;
+}
+
 const SceneMesh* MeshField::kept_by(const Clip& clip) const {
     if (clip != clip_) {
         const std::shared_ptr<const SceneMesh> whole(std::shared_ptr<const void>(), &mesh_);

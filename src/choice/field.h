@@ -67,6 +67,8 @@ class Field {
     // Tells whether the data end at the surface of a thing, as meshes do: then a faint outline of
     // everything shows where things are.
     virtual bool ends_at_surface() const { return false; }
+    // Returns the share of that surface's area with values outside of a range.
+    virtual double surface_outside(const ValueRange& /*range*/) const { return 0; }
 
     // Returns points whose convex hull holds all extinction above `least` >= 0 that the clip keeps,
     // and little more; empty if there is none.
@@ -140,6 +142,7 @@ class MeshField : public Field {
         return variation_of(mesh_, measured, bins);
     }
     bool ends_at_surface() const override { return true; }
+    double surface_outside(const ValueRange& range) const override;
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function, double least,
                                          const Clip& clip = {}) const override;
     std::array<glm::dvec3, 8> corners() const override;

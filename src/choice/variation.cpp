@@ -31,6 +31,7 @@ void Variation::add(double value, double weight, double slope, bool coherent) {
     const std::size_t bin = bin_of(value);
     weight_[bin] += weight;
     slope_[bin] += weight * slope;
+    slope_squares_ += weight * slope * slope;
     if (coherent) coherent_[bin] += weight;
 }
 
@@ -40,6 +41,7 @@ void Variation::add(const Variation& other) {
         slope_[i] += other.slope_[i];
         coherent_[i] += other.coherent_[i];
     }
+    slope_squares_ += other.slope_squares_;
 }
 
 bool Variation::empty() const {
@@ -82,8 +84,19 @@ double Variation::coherence(std::size_t bin) const {
     return mean(coherent_, bin);
 }
 
+// The square of the mean over the mean of the squares.
+double Variation::evenness() const {
+    double all = 0, slopes = 0;
+    for (std::size_t bin = 0; bin < bins(); ++bin) {
+        all += weight_[bin];
+        slopes += slope_[bin];
+    }
+    return slope_squares_ > 0 ? slopes * slopes / (all * slope_squares_) : 0;
+}
+
 Variation Variation::negated() const {
     Variation result(-hi_, -lo_, bins());
+    result.slope_squares_ = slope_squares_;
     std::ranges::reverse_copy(weight_, result.weight_.begin());
     std::ranges::reverse_copy(slope_, result.slope_.begin());
     std::ranges::reverse_copy(coherent_, result.coherent_.begin());

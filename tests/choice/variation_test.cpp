@@ -34,6 +34,24 @@ TEST(Variation, OfALinearFieldIsItsGradientAndCoherent) {
     }
 }
 
+// The gradient of a distance has the length 1 but at its kinks; three independent normal
+// components have a length whose mean squared is 8 / (3 pi) of its mean square.
+TEST(Variation, IsEvenForADistanceAlone) {
+    const Grid grid = test::grid_of({40, 40, 40}, Centering::node);
+    const auto distance = [](double i, double j, double k) {
+        return glm::length(glm::dvec3(i, j, k) - 19.5) - 12;
+    };
+    EXPECT_GT(measured_of(test::volume_of(grid, distance), -12, 25).evenness(), .98);
+    const Volume waves = test::volume_of(grid, [](double i, double j, double k) {
+        return std::sin(.31 * i + .2 * j) + std::sin(.37 * j - .17 * k) +
+               std::sin(.29 * k + .1 * i);
+    });
+    EXPECT_LT(measured_of(waves, -3, 3).evenness(), .9);
+    EXPECT_EQ(measured_of(test::volume_of(grid, [](double, double, double) { return 1; }), 0, 2)
+                  .evenness(),
+              0);
+}
+
 TEST(Variation, OfATetIsTheGradientOfItsLinearField) {
     const SceneMesh mesh = scene_mesh(
         Scene(), test::kuhn_box({4, 4, 4}, [](const glm::dvec3& p) { return 3 * p.x - 4 * p.z; }));
