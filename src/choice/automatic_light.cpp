@@ -20,6 +20,9 @@ constexpr std::size_t light_bins = 256;
 // Bound on the error, in 1/255, below which software OpenGL may refuse light: its loops are too
 // short (docs/lighting.md). Choices must not depend on the context, so none of them lights then.
 constexpr double least_lit_error = .25;
+// Number of slabs below which it may refuse light, too: rays are cut into so many, and the longest
+// piece takes some 16 cells of a volume of 2^28 samples, far less than its loops hold.
+constexpr int least_lit_slabs = 256;
 
 // Returns the key because of which light would be refused (docs/lighting.md), if there is one.
 std::optional<std::string> refusal(const Scene& scene) {
@@ -36,9 +39,27 @@ std::optional<std::string> refusal(const Scene& scene) {
         if (project.table.is_given()) return "render.project.table knows no gradient";
         if (project.tree) return "render.project.tree has no place for light";
     }
-    const TreeSettings* const tree = given_tree(scene.slice.tree);
-    if (scene.method == Method::slice && tree != nullptr && tree->nodes == NodeArithmetic::fixed)
+    if (scene.method != Method::slice) return std::nullopt;
+    const SliceSettings& slice = scene.slice;
+    const TreeSettings* const tree = given_tree(slice.tree);
+    if (tree != nullptr && tree->nodes == NodeArithmetic::fixed)
         return "render.slice.tree.nodes know opacity alone";
+    // Light needs exact segments unless the scene names others.
+    if (slice.classification.is_given() && slice.classification != Classification::exact)
+        return std::nullopt;
+    if (slice.filter == Filter::hardware) return "render.slice.filter is hardware";
+    double slabs = least_lit_slabs;
+    if (tree != nullptr) {
+        slabs = 1;
+        for (const int factor : tree->factors) slabs *= factor;
+    }
+    if (slice.samples.is_given()) slabs = *slice.samples;
+    if (slabs < least_lit_slabs) {
+        return fmt::format(
+            "render.slice.{} cuts rays into fewer than {} slabs, which software "
+            "OpenGL may refuse",
+            slice.samples.is_given() ? "samples" : "tree", least_lit_slabs);
+    }
     return std::nullopt;
 }
 
@@ -78,8 +99,7 @@ LightChoice choose_light(const Scene& scene, const TransferSubject& subject, con
     const std::string found =
         fmt::format("{:.0f} % of what changes in the picture are surfaces", 100 * share);
     if (share < least_surfaces) return {false, fmt::format("not lit: only {}", found)};
-    return {true, fmt::format("lit: {}; a frame takes two to three times as long as an unlit one",
-                              found)};
+    return {true, "lit: " + found};
 }
 
 }  // namespace lamina

@@ -23,6 +23,9 @@ namespace lamina {
 
 namespace {
 
+// Opacity of the median ray through labels: the first label of a ray hides most of the others, so
+// that their colours do not mix.
+constexpr double label_opacity = .999;
 constexpr std::size_t most_labels = 24;  // up to as many different whole numbers are labels
 
 // Colours in linear light: of data with a single value, and of a range without values.
@@ -211,7 +214,7 @@ AutomaticTransfer label_transfer(const ValueDistribution& values, const VolumeLa
     for (TransferKnot& point : points)
         if (largest > 0) point.optics.extinction /= largest;
     return {TransferFunction::nearest(points),
-            label_text(labels, said != nullptr, background, range)};
+            label_text(labels, said != nullptr, background, range), "", false, label_opacity};
 }
 
 AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers,

@@ -26,6 +26,8 @@ struct AutomaticTransfer {
     std::string padding{};  // for people: which values are padding; empty if none are
     // False: extinctions are relative, the largest is 1, and choose() scales them for the data.
     bool per_world_unit = false;
+    // Opacity that the median of the rays that meet something visible then gets.
+    double median_opacity = .9;
 };
 
 // Chooses a transfer function (docs/first-picture.md): surfaces of materials or of rare values

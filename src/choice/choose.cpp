@@ -19,9 +19,8 @@
 namespace lamina {
 namespace {
 
-constexpr double median_opacity = .9;  // median of the rays that meet something visible
-constexpr double seen_share = 1e-3;    // of the largest extinction; fitted cameras ignore less
-constexpr double seen_depth = .01;     // over the diagonal of the data, likewise
+constexpr double seen_share = 1e-3;  // of the largest extinction; fitted cameras ignore less
+constexpr double seen_depth = .01;   // over the diagonal of the data, likewise
 
 double largest_extinction(const TransferFunction& transfer_function) {
     const auto knots = transfer_function.knots();
@@ -75,7 +74,8 @@ double median_depth(Scene scene, const TransferFunction& transfer_function,
                     std::span<const glm::dvec3> points, const Field& field) {
     scene.transfer_function = transfer_function;
     scene.width = scene.height = square_side;
-    const Orientation from = orientation_of(field.axes(), field.corners());
+    const Orientation from =
+        orientation_of(field.axes(), field.corners(), {}, field.axial_slices());
     scene.camera =
         fitted_camera(points, from.front, turn_to(ViewSide::iso, from), square_side, square_side);
     std::vector<double> depths = field.optical_depths(scene);
@@ -88,8 +88,9 @@ double median_depth(Scene scene, const TransferFunction& transfer_function,
     return *middle;
 }
 
-// Scales relative extinctions for median_opacity; not at all if no ray meets anything.
-void take_density(const Field& field, Scene& scene) {
+// Scales relative extinctions for this opacity of the median ray; not at all if no ray meets
+// anything.
+void take_density(const Field& field, double median_opacity, Scene& scene) {
     scene.transfer_function = per_diagonal(*scene.transfer_function, field);
     Scene bare = scene;  // annotations change no density
     bare.annotations = {};
@@ -183,10 +184,11 @@ bool leaves_gradient_open(const Scene& scene) {
     return given != nullptr && given->smallest_gradient.is_automatic();
 }
 
-// Returns the length of gradients below which they count as noise.
-double smallest_gradient_of(const Padding& padding, const Field& field) {
+// Returns the length of gradients below which they count as noise. `bordered`: the field's range is
+// also that of a border that is left out.
+double smallest_gradient_of(const Padding& padding, const Field& field, bool bordered) {
     // The ends of the range may lie between the places that a distribution counts.
-    const ValueRange range = padding.values.empty()
+    const ValueRange range = (padding.values.empty() && !bordered) || padding.rest.empty()
                                  ? field.range()
                                  : ValueRange{padding.rest.lowest(), padding.rest.highest()};
     const double height = range.empty() ? 0 : range.hi - range.lo;
@@ -197,14 +199,14 @@ double smallest_gradient_of(const Padding& padding, const Field& field) {
 
 // Chooses whether the scene is lit, and the smallest gradient that is, if they are open.
 void choose_lighting(Choices& choices, const TransferSubject& subject,
-                     const ValueDistribution& values) {
+                     const ValueDistribution& values, bool bordered) {
     const Field& field = *subject.field;
     Scene& scene = choices.scene;
     const bool open = leaves_light_open(scene);
     if (!open && !leaves_gradient_open(scene)) return;
     const Padding padding =
         find_padding(values, field.whole_numbers(), field.least_padding_share());
-    const double smallest = smallest_gradient_of(padding, field);
+    const double smallest = smallest_gradient_of(padding, field, bordered);
     if (open) {
         const LightChoice light = choose_light(scene, subject, padding, smallest);
         choices.reasons.push_back("lighting: " + light.reason);
@@ -309,7 +311,8 @@ void add_lights(const Adjustments& adjustments, Choices& choices) {
 // people.
 std::string choose_camera(const Adjustments& adjustments, const Field& field, bool per_world_unit,
                           Scene& scene) {
-    const Orientation from = orientation_of(field.axes(), field.corners(), adjustments.up);
+    const Orientation from =
+        orientation_of(field.axes(), field.corners(), adjustments.up, field.axial_slices());
     ViewTurn turn = turn_to(adjustments.side.value_or(ViewSide::iso), from);
     turn.azimuth += adjustments.turn.azimuth;
     turn.elevation += adjustments.turn.elevation;
@@ -321,10 +324,42 @@ std::string choose_camera(const Adjustments& adjustments, const Field& field, bo
     return fmt::format("{}; view: {}", from.reason, name_of(*adjustments.side));
 }
 
+// Keeps those planes of a border's clip behind which something would show: the border itself, or
+// values between it and what is inside, as a skin. `own`: the clip without them.
+void clip_border(const BorderlessField& inner, const Clip& own, Choices& choices) {
+    Scene& scene = choices.scene;
+    scene.clip = own;
+    std::string values;
+    std::int64_t widest = 0;
+    std::vector<double> said;
+    for (const BorderSide& side : inner.sides) {
+        const auto [lo, hi] = std::minmax(side.value, side.behind);
+        if (scene.transfer_function->transparent(lo, hi)) continue;
+        scene.clip.planes.push_back(side.inside);
+        widest = std::max(widest, side.width);
+        if (std::ranges::find(said, side.value) != said.end()) continue;
+        said.push_back(side.value);
+        values += fmt::format("{}{:.9g}", values.empty() ? "" : " and ", side.value);
+    }
+    if (said.empty()) return;
+    choices.reasons.push_back(
+        fmt::format("clip: a border of {}, up to {} sample{} wide, is cut away (--crop :,:,: keeps "
+                    "it)",
+                    values, widest, widest == 1 ? "" : "s"));
+}
+
 // Chooses all but the directions of lights that were asked for.
-Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustments) {
+Choices choose_unlit(Scene asked, const Field& whole, const Adjustments& adjustments) {
     Choices choices{std::move(asked), {}};
     Scene& scene = choices.scene;
+    std::optional<BorderlessField> inner;
+    if (scene.transfer_function.is_automatic() && !scene.clip.box && !adjustments.own_crop &&
+        scene.clip.planes.size() + 6 <= Clip::most_planes)
+        inner = whole.without_border();
+    const Field& field = inner ? *inner->field : whole;
+    const Clip own = scene.clip;
+    if (inner)
+        for (const BorderSide& side : inner->sides) scene.clip.planes.push_back(side.inside);
     const bool lights = leaves_light_open(scene);
     const ValueDistribution values =
         scene.transfer_function.is_automatic() || lights || leaves_gradient_open(scene)
@@ -335,7 +370,7 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
                                       if (!path) path = median_path(scene, field);
                                       return *path;
                                   }};
-    if (!lights) choose_lighting(choices, subject, values);
+    if (!lights) choose_lighting(choices, subject, values, inner.has_value());
     if (!leaves_something_open(scene) && !adjustments.transfer_function() && !adjustments.camera())
         return choices;
     if (field.range().empty()) {
@@ -356,9 +391,11 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
     } else {
         change(*scene.transfer_function, adjustments.transfer, scene);
     }
+    if (inner) clip_border(*inner, own, choices);
     if (adjustments.opacity) {
         chosen.reason = take_opacity(adjustments, *scene.transfer_function);
         chosen.per_world_unit = false;
+        chosen.median_opacity = AutomaticTransfer().median_opacity;
     }
     std::string orientation;
     if (chooses_camera)
@@ -366,7 +403,7 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
     else
         scene.camera = turned(*scene.camera, adjustments.turn);
     if (chooses_function || adjustments.opacity) {
-        if (!chosen.per_world_unit) take_density(field, scene);
+        if (!chosen.per_world_unit) take_density(field, chosen.median_opacity, scene);
         choices.reasons.push_back(fmt::format(
             "transfer function: {}; extinction up to {:.4g} per unit of length", chosen.reason,
             adjustments.density * largest_extinction(*scene.transfer_function)));
@@ -377,7 +414,7 @@ Choices choose_unlit(Scene asked, const Field& field, const Adjustments& adjustm
         TransferFunction::linear({dense.knots().begin(), dense.knots().end()});
     scene.camera = zoomed(*scene.camera, adjustments.zoom);
     if (chooses_camera) choices.reasons.push_back(camera_text(*scene.camera, orientation));
-    if (lights) choose_lighting(choices, subject, values);
+    if (lights) choose_lighting(choices, subject, values, inner.has_value());
     return choices;
 }
 

@@ -49,6 +49,7 @@ struct Adjustments {
     double zoom = 1;
     std::optional<LightWord> light{};
     Clip clip{};              // what to cut away beside the scene's own clip (adjust_scene())
+    bool own_crop = false;    // nothing is cropped but what `clip` says
     bool all_around = false;  // an automatic camera's picture fits from all sides
 
     bool transfer_function() const {

@@ -38,6 +38,34 @@ std::vector<WeightedValue> weighted(const ValueCounts& counted, SampleType type)
     return values;
 }
 
+// Returns how many samples of a box weighted() takes of a volume.
+double counted_in(const SampleBox& box, const Volume& volume) {
+    if (volume.type() != SampleType::float32) return static_cast<double>(box.count());
+    const auto& size = volume.grid().size;
+    std::int64_t count = 0;
+    const std::int64_t step = sample_step(volume.grid());
+    for (std::int64_t i = 0; i < volume.grid().sample_count(); i += step) {
+        const std::array<std::int64_t, 3> at{i % size[0], i / size[0] % size[1],
+                                             i / (size[0] * size[1])};
+        bool inside = true;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            inside = inside && at[axis] >= box.first[axis] &&
+                     at[axis] < box.first[axis] + box.size[axis];
+        count += inside ? 1 : 0;
+    }
+    return static_cast<double>(count);
+}
+
+// Lowers the weight of a value.
+void take_away(std::vector<WeightedValue>& values, double value, double weight) {
+    for (WeightedValue& one : values) {
+        if (one.value != value) continue;
+        const double less = std::min(one.weight, weight);
+        one.weight -= less;
+        weight -= less;
+    }
+}
+
 constexpr std::size_t most_tets = std::size_t{1} << 19;  // more tets are sampled evenly
 
 // Barycentric coordinates of a four-point quadrature exact for quadratics (Hammer and Stroud 1956).
@@ -147,9 +175,10 @@ class CellRow {
     std::array<const T*, 4> lines_;
 };
 
-// Finds the first and the last visible cell of a row: it searches the row's bricks from both ends.
+// Finds the first and the last visible cell of a row among the cells `among`: it searches the row's
+// bricks from both ends.
 template <typename T>
-Span shown_of_row(const CellRow<T>& row, std::int64_t cells,
+Span shown_of_row(const CellRow<T>& row, const Span& among,
                   const std::vector<std::int64_t>& shown_bricks, const Shows& shows) {
     const auto shown = [&](std::int64_t x) {
         const ValueRange range = row.range(x);
@@ -157,13 +186,14 @@ Span shown_of_row(const CellRow<T>& row, std::int64_t cells,
     };
     Span span;
     for (auto brick = shown_bricks.begin(); brick != shown_bricks.end() && span.empty(); ++brick) {
-        const std::int64_t end = std::min(cells, (*brick + 1) * edge);
-        for (std::int64_t x = *brick * edge; x < end && span.empty(); ++x)
+        const std::int64_t end = std::min(among.last, (*brick + 1) * edge);
+        for (std::int64_t x = std::max(among.first, *brick * edge); x < end && span.empty(); ++x)
             if (shown(x)) span = {x, x + 1};
     }
     if (span.empty()) return span;
     for (auto brick = shown_bricks.rbegin();; ++brick) {
-        for (std::int64_t x = std::min(cells, (*brick + 1) * edge) - 1; x >= *brick * edge; --x) {
+        for (std::int64_t x = std::min(among.last, (*brick + 1) * edge) - 1; x >= *brick * edge;
+             --x) {
             if (x < span.last || shown(x)) return {span.first, std::max(span.last, x + 1)};
         }
     }
@@ -176,8 +206,10 @@ struct RowSpans {
     const Volume& volume;
     const MinMaxBricks& bricks;
     const Shows& shows;
+    const SampleBox inside;
     const Grid& grid = volume.grid();
     std::array<std::int64_t, 3> cells = cells_of(grid);
+    std::array<Span, 3> among = inner_cells();
     std::vector<Span> spans = std::vector<Span>(static_cast<std::size_t>(cells[1] * cells[2]));
 
     // Returns one span for each row of cells along x, y fastest.
@@ -190,6 +222,16 @@ struct RowSpans {
     }
 
     static constexpr std::int64_t block_edge = 8;  // bricks
+
+    // Returns the cells between the samples inside; along an axis with one sample, its cell.
+    std::array<Span, 3> inner_cells() const {
+        std::array<Span, 3> found;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::int64_t first = inside.first[axis];
+            found[axis] = {first, first + std::max<std::int64_t>(1, inside.size[axis] - 1)};
+        }
+        return found;
+    }
 
     struct BrickRow {
         std::int64_t y, z;
@@ -239,10 +281,15 @@ struct RowSpans {
     }
 
     void find_in_row(const BrickRow& row, const SampleWindow<T>& window) {
-        for (std::int64_t z = row.z * edge; z < std::min(cells[2], (row.z + 1) * edge); ++z) {
-            for (std::int64_t y = row.y * edge; y < std::min(cells[1], (row.y + 1) * edge); ++y)
+        const auto part = [](std::int64_t brick, const Span& within) {
+            return Span{std::max(within.first, brick * edge),
+                        std::min(within.last, (brick + 1) * edge)};
+        };
+        const Span of_y = part(row.y, among[1]), of_z = part(row.z, among[2]);
+        for (std::int64_t z = of_z.first; z < of_z.last; ++z) {
+            for (std::int64_t y = of_y.first; y < of_y.last; ++y)
                 spans[static_cast<std::size_t>(z * cells[1] + y)] =
-                    shown_of_row(CellRow<T>(grid, window, y, z), cells[0], row.shown, shows);
+                    shown_of_row(CellRow<T>(grid, window, y, z), among[0], row.shown, shows);
         }
     }
 };
@@ -332,32 +379,83 @@ double VolumeField::spacing() const {
     return smallest;
 }
 
+// Whole numbers in square slices, whose distance is another one than that of their rows, and that
+// are as large in millimetres as a part of a body, are most probably CT or MR.
+bool VolumeField::axial_slices() const {
+    constexpr double least_body = 50, least_slice = 100, most_slice = 700;  // mm
+    const Grid& grid = volume_.grid();
+    std::array<double, 3> distance, length;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (!(grid.step[axis][static_cast<int>(axis)] > 0)) return false;  // not along the world's
+        distance[axis] = glm::length(grid.step[axis]);
+        length[axis] = distance[axis] * static_cast<double>(grid.size[axis]);
+    }
+    return grid.axes == WorldAxes::unnamed && whole_numbers() && grid.size[0] == grid.size[1] &&
+           distance[0] == distance[1] && distance[2] != distance[0] && length[0] >= least_slice &&
+           length[0] <= most_slice && length[2] >= least_body;
+}
+
 const VolumeLabels* VolumeField::labels() const {
     static const VolumeLabels nothing;
     if (!whole_numbers() || volume_.grid().lookup == VolumeLookup::linear) return nullptr;
     return volume_.labels() ? volume_.labels().get() : &nothing;
 }
 
+SampleBox VolumeField::inside() const {
+    return border_ ? border_->inside : SampleBox{{0, 0, 0}, volume_.grid().size};
+}
+
 ValueDistribution VolumeField::distribution() const {
-    return ValueDistribution(
-        weighted(values_ != nullptr ? *values_ : count_values(volume_), volume_.type()));
+    std::vector<WeightedValue> values =
+        weighted(values_ != nullptr ? *values_ : count_values(volume_), volume_.type());
+    if (border_) {
+        for (const BorderLayers& layers : border_->layers)
+            take_away(values, layers.value, counted_in(layers.samples, volume_));
+    }
+    return ValueDistribution(std::move(values));
+}
+
+std::optional<BorderlessField> VolumeField::without_border() const {
+    if (volume_.grid().lookup == VolumeLookup::nearest) return std::nullopt;
+    std::optional<ConstantBorder> border = find_constant_border(volume_);
+    if (!border) return std::nullopt;
+    BorderlessField result;
+    for (const BorderLayers& layers : border->layers) {
+        const glm::dvec3 inward = volume_.grid().step[layers.axis];
+        glm::dvec3 first_inside(0);
+        first_inside[static_cast<int>(layers.axis)] = static_cast<double>(
+            layers.samples.first[layers.axis] + (layers.upper ? -1 : layers.width));
+        result.sides.push_back({layers.value,
+                                layers.behind,
+                                layers.width,
+                                {volume_.grid().to_world(first_inside),
+                                 glm::normalize(layers.upper ? glm::dvec3(0) - inward : inward)}});
+    }
+    result.field = std::make_unique<VolumeField>(volume_, bricks_, values_, std::move(border));
+    return result;
 }
 
 std::vector<glm::dvec3> VolumeField::shown_points(const TransferFunction& transfer_function,
                                                   double least, const Clip& clip) const {
     const Grid& grid = volume_.grid();
     const double cells = grid.sample_count() > large_volume ? static_cast<double>(edge) : 1;
-    std::vector<glm::dvec3> points =
-        hull_of_shown_cells(volume_, bricks_, [&](const ValueRange& range) {
-            return transfer_function.max_extinction(range.lo, range.hi) > least;
-        });
+    const auto shows = [&](const ValueRange& range) {
+        return transfer_function.max_extinction(range.lo, range.hi) > least;
+    };
+    std::vector<glm::dvec3> points = hull_of_shown_cells(volume_, bricks_, shows, inside());
     for (const HalfSpace& half : half_spaces(clip)) points = kept_of(points, half, grid, cells);
     return points;
 }
 
 std::array<glm::dvec3, 8> VolumeField::corners() const {
     const Grid& grid = volume_.grid();
-    std::array<glm::dvec3, 8> corners = box_corners(grid.index_min(), grid.index_max());
+    glm::dvec3 lo = grid.index_min(), hi = grid.index_max();
+    for (const BorderLayers& layers : border_ ? border_->layers : std::vector<BorderLayers>()) {
+        const auto axis = static_cast<int>(layers.axis);
+        (layers.upper ? hi : lo)[axis] = static_cast<double>(layers.samples.first[layers.axis] +
+                                                             (layers.upper ? -1 : layers.width));
+    }
+    std::array<glm::dvec3, 8> corners = box_corners(lo, hi);
     for (glm::dvec3& corner : corners) corner = grid.to_world(corner);
     return corners;
 }
@@ -421,6 +519,25 @@ ValueDistribution MeshField::distribution() const {
     return ValueDistribution(std::move(values));
 }
 
+double MeshField::surface_outside(const ValueRange& range) const {
+    double all = 0, outside = 0;
+    for (const TetFace& face : mesh_.mesh.open_faces()) {
+        const Tet& tet = mesh_.mesh.tets()[static_cast<std::size_t>(face.tet)];
+        double share = 0;
+        for (std::size_t corner = 0; corner < 4; ++corner) {
+            const double value = mesh_.scalar.values[static_cast<std::size_t>(tet[corner])];
+            if (corner != static_cast<std::size_t>(face.face) &&
+                (value < range.lo || value > range.hi))
+                share += 1. / 3;
+        }
+        const auto at = mesh_.mesh.corners(face);
+        const double area = glm::length(glm::cross(at[1] - at[0], at[2] - at[0]));
+        all += area;
+        outside += share * area;
+    }
+    return all > 0 ? outside / all : 0;
+}
+
 const SceneMesh* MeshField::kept_by(const Clip& clip) const {
     if (clip != clip_) {
         const std::shared_ptr<const SceneMesh> whole(std::shared_ptr<const void>(), &mesh_);
@@ -474,6 +591,10 @@ std::vector<double> MeshField::optical_depths(const Scene& scene) const {
     return depths;
 }
 
+std::optional<BorderlessField> Field::without_border() const {
+    return std::nullopt;
+}
+
 double diagonal_of(const Field& field) {
     const auto corners = field.corners();
     return glm::distance(corners.front(), corners.back());
@@ -503,12 +624,15 @@ AnnotatedData annotated_data(const Field& field, bool with_labels) {
 }
 
 std::vector<glm::dvec3> hull_of_shown_cells(const Volume& volume, const MinMaxBricks& bricks,
-                                            const Shows& shows) {
+                                            const Shows& shows,
+                                            const std::optional<SampleBox>& inside) {
     const Grid& grid = volume.grid();
     if (grid.sample_count() > large_volume) return hull_of_shown_bricks(grid, bricks, shows);
     const auto cells = cells_of(grid);
     const std::vector<Span> rows = with_sample_type(volume.type(), [&](auto zero) {
-        return RowSpans<decltype(zero)>{volume, bricks, shows}.find();
+        return RowSpans<decltype(zero)>{volume, bricks, shows,
+                                        inside.value_or(SampleBox{{0, 0, 0}, grid.size})}
+            .find();
     });
     // Up to four rows of cells touch a line of edges along x, which takes the union of their spans.
     const std::int64_t lines_y = cells[1] + 1;

@@ -6,10 +6,13 @@
 #include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "annotation/annotation_layer.h"
+#include "choice/constant_border.h"
 #include "choice/value_distribution.h"
 #include "choice/variation.h"
 #include "lamina/scene.h"
@@ -21,12 +24,30 @@
 
 namespace lamina {
 
+class Field;
+
+// A field without layers of one value at a side, which a clip cuts away.
+struct BorderSide {
+    double value = 0;        // of the layers
+    double behind = 0;       // median of the first layer inside
+    std::int64_t width = 0;  // samples
+    ClipPlane inside{};      // keeps what is inside
+};
+
+// A volume without the border around it (choice/constant_border.h).
+struct BorderlessField {
+    std::unique_ptr<Field> field;
+    std::vector<BorderSide> sides;
+};
+
 // The data, a volume or a mesh, from which transfer function and camera are chosen.
 class Field {
   public:
     virtual ~Field() = default;
 
-    virtual WorldAxes axes() const = 0;           // named for meshes: in simulations z is up
+    virtual WorldAxes axes() const = 0;  // named for meshes: in simulations z is up
+    // Tells whether the data seem to be axial slices of a body from head to feet.
+    virtual bool axial_slices() const { return false; }
     virtual Quantity quantity() const = 0;        // that the values measure
     virtual std::string length_unit() const = 0;  // of the world; empty if it is unknown
     virtual ValueRange range() const = 0;         // range of the finite values
@@ -46,12 +67,18 @@ class Field {
     // Tells whether the data end at the surface of a thing, as meshes do: then a faint outline of
     // everything shows where things are.
     virtual bool ends_at_surface() const { return false; }
+    // Returns the share of that surface's area with values outside of a range.
+    virtual double surface_outside(const ValueRange& /*range*/) const { return 0; }
 
     // Returns points whose convex hull holds all extinction above `least` >= 0 that the clip keeps,
     // and little more; empty if there is none.
     virtual std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
                                                  double least, const Clip& clip = {}) const = 0;
     virtual std::array<glm::dvec3, 8> corners() const = 0;
+
+    // Returns the data without the border of constant values around them; nothing if they have
+    // none.
+    virtual std::optional<BorderlessField> without_border() const;
 
     // Returns the optical depths of about 1000 rays all over the scene's view; rays that miss the
     // data may be left out. Only transfer function, camera and size of the scene matter.
@@ -61,14 +88,14 @@ class Field {
 // A volume with its bricks and, if counted, its values, all of which must outlive this object.
 class VolumeField : public Field {
   public:
-    VolumeField(const Volume& volume, const MinMaxBricks& bricks)
-        : volume_(volume), bricks_(bricks) {}
+    VolumeField(const Volume& volume, const MinMaxBricks& bricks,
+                const ValueCounts* values = nullptr, std::optional<ConstantBorder> border = {})
+        : volume_(volume), bricks_(bricks), values_(values), border_(std::move(border)) {}
     explicit VolumeField(const VolumeData& data)
-        : volume_(data.volume),
-          bricks_(data.bricks),
-          values_(data.values ? &*data.values : nullptr) {}
+        : VolumeField(data.volume, data.bricks, data.values ? &*data.values : nullptr) {}
 
     WorldAxes axes() const override { return volume_.grid().axes; }
+    bool axial_slices() const override;
     Quantity quantity() const override { return volume_.quantity(); }
     std::string length_unit() const override { return volume_.grid().unit; }
     ValueRange range() const override { return bricks_.whole; }
@@ -78,8 +105,9 @@ class VolumeField : public Field {
     double least_padding_share() const override { return least_padding; }
     ValueDistribution distribution() const override;
     Variation variation(const ValueRange& measured, const Variation& bins) const override {
-        return variation_of(volume_, measured, bins);
+        return variation_of(volume_, inside(), measured, bins);
     }
+    std::optional<BorderlessField> without_border() const override;
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function, double least,
                                          const Clip& clip = {}) const override;
     std::array<glm::dvec3, 8> corners() const override;
@@ -88,7 +116,10 @@ class VolumeField : public Field {
   private:
     const Volume& volume_;
     const MinMaxBricks& bricks_;
-    const ValueCounts* values_ = nullptr;  // null: distribution() counts the values
+    SampleBox inside() const;
+
+    const ValueCounts* values_;             // null: distribution() counts the values
+    std::optional<ConstantBorder> border_;  // left out of what is measured
 };
 
 // A mesh with its scalar. The mesh must outlive this object, which serves one thread at a time.
@@ -111,6 +142,7 @@ class MeshField : public Field {
         return variation_of(mesh_, measured, bins);
     }
     bool ends_at_surface() const override { return true; }
+    double surface_outside(const ValueRange& range) const override;
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function, double least,
                                          const Clip& clip = {}) const override;
     std::array<glm::dvec3, 8> corners() const override;
@@ -134,9 +166,11 @@ AnnotatedData annotated_data(const Field& field, bool with_labels);
 
 // Returns world points whose convex hull holds all visible cells, outer half voxels included; none
 // if no cell is visible. A cell is visible if shows(range of its corners' finite samples) is true;
-// it must then be true for wider ranges, too. In large volumes, bricks take the place of cells.
+// it must then be true for wider ranges, too. `inside`: the samples between which cells count, if
+// not all do. In large volumes, bricks take the place of cells, and all of them count.
 std::vector<glm::dvec3> hull_of_shown_cells(const Volume& volume, const MinMaxBricks& bricks,
-                                            const std::function<bool(const ValueRange&)>& shows);
+                                            const std::function<bool(const ValueRange&)>& shows,
+                                            const std::optional<SampleBox>& inside = {});
 
 // Number of samples above which camera and extinctions are chosen from fewer samples, because the
 // volume may stay on disk. In memory it is treated alike, so that its picture is the same.

@@ -19,6 +19,9 @@ constexpr double three_quarter_azimuth = 30, three_quarter_elevation = 20;
 // An axis stands upright if it is this many times as long as each of the others.
 constexpr double upright_ratio = 1.25;
 
+// Data are flat if their height is less than this share of each other axis.
+constexpr double flat_ratio = .2;
+
 // Returns the opposite direction, whose zeros are not negative: people read them.
 glm::dvec3 opposite(const glm::dvec3& direction) {
     return glm::dvec3(0) - direction;
@@ -61,15 +64,21 @@ std::optional<Axes> front_of_patient(WorldAxes axes) {
     unreachable_enum();
 }
 
-// Returns the axis along which the box is longest, if it is so by upright_ratio.
-std::optional<UpAxis> upright_axis(const std::array<glm::dvec3, 8>& corners) {
-    double length[3];
-    for (int axis = 0; axis < 3; ++axis) {
+using Lengths = std::array<double, 3>;  // of a box
+
+Lengths lengths_of(const std::array<glm::dvec3, 8>& corners) {
+    Lengths length;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto [lo, hi] = std::ranges::minmax(
-            corners, {}, [&](const glm::dvec3& corner) { return corner[axis]; });
-        length[axis] = hi[axis] - lo[axis];
+            corners, {}, [&](const glm::dvec3& corner) { return corner[static_cast<int>(axis)]; });
+        length[axis] = hi[static_cast<int>(axis)] - lo[static_cast<int>(axis)];
     }
-    for (int axis = 0; axis < 3; ++axis) {
+    return length;
+}
+
+// Returns the axis along which the box is longest, if it is so by upright_ratio.
+std::optional<UpAxis> upright_axis(const Lengths& length) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
         const double longest_other = std::max(length[(axis + 1) % 3], length[(axis + 2) % 3]);
         if (length[axis] > upright_ratio * longest_other) return static_cast<UpAxis>(2 * axis);
     }
@@ -80,10 +89,19 @@ bool along_z(UpAxis up) {
     return up == UpAxis::plus_z || up == UpAxis::minus_z;
 }
 
-Orientation chosen_orientation(WorldAxes axes, const std::array<glm::dvec3, 8>& corners) {
-    if (axes == WorldAxes::named)
-        return {front_of(UpAxis::plus_z), false, "z is up, as in meshes and where axes have names"};
-    const auto upright = upright_axis(corners);
+Orientation chosen_orientation(WorldAxes axes, const Lengths& length, bool axial_slices) {
+    if (axes == WorldAxes::named) {
+        Orientation found{front_of(UpAxis::plus_z), false,
+                          "z is up, as in meshes and where axes have names"};
+        found.flat = length[2] < flat_ratio * std::min(length[0], length[1]);
+        if (found.flat) found.reason += "; what is flat is seen from above";
+        return found;
+    }
+    if (axial_slices) {
+        return {front_of(UpAxis::minus_z), false,
+                "-z is up, as in axial slices of a body from head to feet, which these seem to be"};
+    }
+    const auto upright = upright_axis(length);
     if (!upright) return {front_of(UpAxis::plus_y), false, "y is up, no axis is much the longest"};
     return {front_of(*upright), false,
             fmt::format("{}, the longest axis, is up", name_of(*upright) + 1)};
@@ -111,11 +129,11 @@ Axes turned(const Axes& axes, const ViewTurn& turn) {
 }
 
 Orientation orientation_of(WorldAxes axes, const std::array<glm::dvec3, 8>& corners,
-                           std::optional<UpAxis> up) {
+                           std::optional<UpAxis> up, bool axial_slices) {
     const std::optional<Axes> patient = front_of_patient(axes);
     if (!up) {
         if (patient) return {*patient, true, "the patient's head is up"};
-        return chosen_orientation(axes, corners);
+        return chosen_orientation(axes, lengths_of(corners), axial_slices);
     }
     const std::string reason = fmt::format("{} is up, as asked", name_of(*up));
     if (!patient || !along_z(*up)) return {front_of(*up), false, reason};
@@ -129,6 +147,7 @@ ViewTurn turn_to(ViewSide side, const Orientation& orientation) {
     const double left = orientation.patient ? 90 : -90;
     switch (side) {
         case ViewSide::iso:
+            if (orientation.flat) return turn_to(ViewSide::top, orientation);
             return {three_quarter_azimuth, three_quarter_elevation};
         case ViewSide::front:
             return {0, 0};

@@ -38,11 +38,13 @@ struct Orientation {
     Axes front;
     bool patient = false;     // left and right are those of a patient who is seen from in front
     std::string reason = {};  // for people: "+z is up, as asked"
+    bool flat = false;        // the three-quarter view would see the edge, so it looks from above
 };
 
 // Returns the orientation of data in a box of the world with these corners. `up`: as asked.
+// `axial_slices`: axes without names seem to be those of slices of a body (Field::axial_slices()).
 Orientation orientation_of(WorldAxes axes, const std::array<glm::dvec3, 8>& corners,
-                           std::optional<UpAxis> up = {});
+                           std::optional<UpAxis> up = {}, bool axial_slices = false);
 
 // Returns the turn from the front to the camera that sees this side.
 ViewTurn turn_to(ViewSide side, const Orientation& orientation);

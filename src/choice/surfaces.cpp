@@ -34,6 +34,13 @@ constexpr std::array<glm::dvec3, 4> downwards{
     {{.0203, .0513, .212}, {.0284, .238, .381}, {.212, .552, .527}, {.716, .863, .791}}};
 constexpr std::array<glm::dvec3, 4> beyond{
     {{.195, .0437, .0273}, {.565, .109, .0437}, {.815, .456, .144}, {.922, .799, .597}}};
+// From the lowest to the highest values of data without a background.
+constexpr std::array<glm::dvec3, 6> cool_to_warm{{{.040, .120, .450},
+                                                  {.120, .380, .680},
+                                                  {.450, .650, .720},
+                                                  {.750, .620, .450},
+                                                  {.700, .220, .080},
+                                                  {.400, .020, .030}}};
 constexpr glm::dvec3 outline_color{.254, .275, .319};  // of common values that show faintly
 
 // Colours of one, two, three and four materials by value: what is densest is ivory, like bone; what
@@ -58,10 +65,24 @@ constexpr double noise_coherence = .5;  // share of coherent places below which 
 constexpr int histogram_bins = 256;
 // Share of uncommon values below which a side shows nothing: it is noise, or the foot of a peak.
 constexpr double least_side = .05;
-// Opacity of the median ray by what is faint: the outline of a mesh; data without a background;
-// such data if they are sheets, inside of which is nothing to be seen.
-constexpr double outline_opacity = .5, veil_opacity = .65, sheet_opacity = .95;
-constexpr double sheet_path = .15;  // longest median path through sheets, in diagonals of the data
+// Opacity of the median ray by the outline of a mesh.
+constexpr double outline_opacity = .5;
+// Opacity of a mesh that is shown as a body, over this share of the data's diagonal: walls of
+// sheets are thin.
+constexpr double body_opacity = .95, body_length = 1e-3;
+// A mesh is also shown as a body if its common values leave this share of its surface to others:
+// then most of what there is to see lies on it, as at the walls of a flow.
+constexpr double uncommon_surface = .15;
+constexpr int body_ranks = 24;  // values of a body's colours, each with as much of the field
+// Of data without a background, this share shows at each end of the values, behind a surface of
+// this opacity and these places among the colours.
+constexpr double shown_end = .1, end_opacity = .95, low_place = .2, high_place = .75;
+constexpr double least_end = 2;  // bins, of an end of the values
+// A material and a background are two halves of one thing if both take less than this share of the
+// field, and the material takes more than the rest.
+constexpr double most_of_half = .6;
+constexpr double even_slopes = .95;  // least evenness of the gradients of a distance
+constexpr double sheet_path = .15;   // longest median path through sheets, in diagonals of the data
 
 glm::dvec3 color_at(Colors colors, double place) {
     const double scaled = place * static_cast<double>(colors.size() - 1);
@@ -254,7 +275,7 @@ std::vector<TransferKnot> points_of_side(Side side, Colors colors, const Surroun
     return points;
 }
 
-// Returns the extinction with which the median path through the data has an opacity.
+// Returns the extinction with which a path of this length has an opacity.
 double veil_extinction(double opacity, double path) {
     return path > 0 ? -std::log1p(-opacity) / path : 0;
 }
@@ -275,25 +296,6 @@ void add_outline(std::vector<TransferKnot>& points, const CommonValues& common,
     points.insert(behind, flat.begin(), flat.end());
 }
 
-// Shows all values, coloured by their rank, at least as a veil.
-std::vector<TransferKnot> veiled(const std::vector<TransferKnot>& points,
-                                 const ValueDistribution& values, double extinction) {
-    const TransferFunction surfaces = TransferFunction::linear(points);
-    std::vector<double> places{values.lowest()};
-    constexpr int ranks = 12;
-    for (int i = 1; i < ranks; ++i) places.push_back(values.quantile(double{1} * i / ranks));
-    for (const TransferKnot& point : points) places.push_back(point.value);
-    std::ranges::sort(places);
-    places.erase(std::unique(places.begin(), places.end()), places.end());
-    std::vector<TransferKnot> result;
-    for (const double value : places) {
-        result.push_back({value,
-                          {color_at(upwards, values.share_up_to(value)),
-                           std::max(surfaces.at(value).extinction, extinction)}});
-    }
-    return result;
-}
-
 std::string number_of(double value, const ValueDistribution& values) {
     return number_text(value, fineness_of(values.lowest(), values.highest()));
 }
@@ -308,6 +310,8 @@ bool is_inverted(const CommonValues& common, const ValueDistribution& values) {
 Surroundings negated(const Surroundings& around) {
     Surroundings result{around.histogram, around.variation.negated(), around.lengths, around.bin};
     std::ranges::reverse(result.histogram.shares);
+    result.histogram.least = -around.histogram.most;
+    result.histogram.most = -around.histogram.least;
     return result;
 }
 
@@ -380,15 +384,87 @@ ChosenSurfaces of_smooth_field(const Padding& padding, const CommonValues& commo
                                 hidden, shown)};
 }
 
-// Shows a field without a background, in which no value may be left out: through a veil of all
-// values the surfaces of the higher ones show.
-ChosenSurfaces of_filled_field(const ValueDistribution& values, const Surroundings& around,
-                               const TransferSubject& subject) {
-    const auto points = points_of_side(Side::above(values, values.lowest()), upwards, around);
-    const double opacity = is_sheet(subject) ? sheet_opacity : veil_opacity;
-    return {veiled(points, values, veil_extinction(opacity, subject.median_path())),
-            fmt::format("no value is a background: all from {} to {} show, coloured by their rank",
-                        number_of(values.lowest(), values), number_of(values.highest(), values))};
+// Shows a mesh as an opaque body, whose surface is coloured by the values' ranks.
+ChosenSurfaces of_body(const ValueDistribution& values, const TransferSubject& subject) {
+    const double extinction =
+        veil_extinction(body_opacity, body_length * diagonal_of(*subject.field));
+    std::vector<TransferKnot> points;
+    const auto add = [&](double value, double rank) {
+        if (points.empty() || value > points.back().value)
+            points.push_back({value, {color_at(cool_to_warm, rank), extinction}});
+    };
+    add(values.lowest(), 0);
+    for (int i = 1; i < body_ranks; ++i)
+        add(values.quantile(double{1} * i / body_ranks), double{1} * i / body_ranks);
+    add(values.highest(), 1);
+    return {
+        points,
+        fmt::format("the mesh is a body, whose surface shows all values from {} to {}, coloured "
+                    "by their rank",
+                    number_of(values.lowest(), values), number_of(values.highest(), values))};
+}
+
+// Returns the points that show the values beyond `start`, up to the usual ones and beyond, as one
+// solid. If the side is the lower one, its values and those of `around` are negated.
+std::vector<TransferKnot> points_of_end(double start, double end, double before,
+                                        const Surroundings& around,
+                                        const std::array<double, 2>& places) {
+    const double usual_end = std::min(end, around.histogram.most);
+    const double half =
+        std::max(widest * std::min(start - before, usual_end - start), least_width * around.bin);
+    return points_of_levels({{start, half, end_opacity, color_at(cool_to_warm, places[0])}}, end,
+                            color_at(cool_to_warm, places[1]), around.variation, around.lengths);
+}
+
+// Shows a field without a background: its lowest and highest values, between which it is open.
+ChosenSurfaces of_ends(const ValueDistribution& values, const Surroundings& around) {
+    const double least = around.histogram.least, most = around.histogram.most;
+    const double margin = std::min(least_end * around.bin, (most - least) / 4);
+    const auto start_at = [&](double share) {
+        return std::clamp(values.quantile(share), least + margin, most - margin);
+    };
+    const double low = start_at(shown_end), high = start_at(1 - shown_end);
+    const double middle = std::clamp(values.quantile(.5), low, high);
+    auto points = points_of_end(-low, -values.lowest(), -middle, negated(around), {low_place, 0});
+    negate(points);
+    const auto above = points_of_end(high, values.highest(), middle, around, {high_place, 1});
+    // Ends that meet leave nothing open, and the higher one shows.
+    if (above.front().value <= points.back().value) points.clear();
+    points.insert(points.end(), above.begin(), above.end());
+    return {points, fmt::format("no value is a background: the lowest values, up to {}, and the "
+                                "highest, from {} on, show; all between, {:.3g} % of the field, "
+                                "are transparent",
+                                number_of(low, values), number_of(high, values),
+                                100 * values.share(low, high))};
+}
+
+// Tells whether the background and one of the materials fill most of the field, alike.
+bool are_halves(const std::vector<Material>& materials) {
+    double all = 0, largest = 0;
+    for (const Material& one : materials) {
+        all += one.share;
+        largest = std::max(largest, one.share);
+    }
+    return 1 - all < most_of_half && largest < most_of_half && largest > 1 - most_of_half;
+}
+
+// Tells whether the values are distances from a surface at 0, on one side of it negative.
+bool is_distance(const ValueDistribution& values, const Variation& variation) {
+    return values.lowest() < 0 && values.highest() > 0 && variation.evenness() > even_slopes;
+}
+
+// Shows the smaller side of the surface at 0.
+ChosenSurfaces of_distance(const ValueDistribution& values, const Surroundings& around) {
+    const bool below = values.share_below(0) <= .5;
+    const double end = below ? -values.lowest() : values.highest();
+    auto points = points_of_levels(
+        {{0, std::max(end / 20, least_width * around.bin), end_opacity, sand}}, end, sand,
+        below ? around.variation.negated() : around.variation, around.lengths);
+    if (below) negate(points);
+    return {points, fmt::format("values are distances from a surface at 0, which shows with what "
+                                "lies {} it, {:.3g} % of the field",
+                                below ? "below" : "above",
+                                100 * (below ? values.share_below(0) : 1 - values.share_up_to(0)))};
 }
 
 }  // namespace
@@ -403,14 +479,22 @@ ChosenSurfaces choose_surfaces(const Padding& padding, bool whole_numbers,
     const ValueDistribution& values = padding.rest;
     const CommonValues common = find_common_values(values, whole_numbers);
     const Surroundings around = Surroundings::of(values, whole_numbers, subject);
-    if (subject.field != nullptr && !subject.field->ends_at_surface()) {
+    const bool is_volume = subject.field != nullptr && !subject.field->ends_at_surface();
+    bool halves = false;
+    if (is_volume) {
+        if (is_distance(values, around.variation)) return of_distance(values, around);
         const bool inverted = is_inverted(common, values);
         const Surroundings sought = inverted ? negated(around) : around;
         const Materials found = find_materials(sought.histogram, sought.variation);
-        if (!found.materials.empty()) return of_materials(found, sought, inverted, values);
+        halves = values.distinct() > 2 && are_halves(found.materials);
+        if (!found.materials.empty() && !halves)
+            return of_materials(found, sought, inverted, values);
     }
-    if (!common.background && subject.field != nullptr)
-        return of_filled_field(values, around, subject);
+    if (halves || (is_volume && !common.background)) return of_ends(values, around);
+    if (subject.field != nullptr && !is_volume &&
+        (!common.background ||
+         subject.field->surface_outside({common.lo, common.hi}) > uncommon_surface))
+        return of_body(values, subject);
     return of_smooth_field(padding, common, around, subject);
 }
 

@@ -193,10 +193,21 @@ Padding take_from_ends(const ValueDistribution& all, const IsOne& is_one) {
         found.rest = rest;
         return true;
     };
+    // Tells whether a value at one end may be padding by its distance from the next; if not, the
+    // rest need not be copied.
+    const auto apart = [&](std::size_t value, std::size_t next, std::size_t other_end) {
+        const auto half = [&](std::size_t number) { return found.rest.value(number) / 2; };
+        return std::abs(half(value) - half(next)) >
+               near_below * std::abs(half(next) - half(other_end));
+    };
     for (bool more = true; more && found.values.size() < most_values;) {
+        const std::size_t last = found.rest.distinct() - 1;
+        if (last <= few_values) break;
         const double lowest = found.rest.lowest(), highest = found.rest.highest();
-        more = take(lowest, found.rest.between(std::nextafter(lowest, INFINITY), highest)) ||
-               take(highest, found.rest.between(lowest, std::nextafter(highest, -INFINITY)));
+        more = (apart(0, 1, last) &&
+                take(lowest, found.rest.between(std::nextafter(lowest, INFINITY), highest))) ||
+               (apart(last, last - 1, 0) &&
+                take(highest, found.rest.between(lowest, std::nextafter(highest, -INFINITY))));
     }
     return found;
 }

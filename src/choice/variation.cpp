@@ -9,10 +9,10 @@
 #include <memory>
 
 #include "base/parallel.h"
+#include "choice/constant_border.h"
 #include "choice/field.h"
 #include "mesh/tet_mesh.h"
 #include "volume/sample_source.h"
-#include "volume/volume_store.h"
 
 namespace lamina {
 
@@ -31,6 +31,7 @@ void Variation::add(double value, double weight, double slope, bool coherent) {
     const std::size_t bin = bin_of(value);
     weight_[bin] += weight;
     slope_[bin] += weight * slope;
+    slope_squares_ += weight * slope * slope;
     if (coherent) coherent_[bin] += weight;
 }
 
@@ -40,6 +41,7 @@ void Variation::add(const Variation& other) {
         slope_[i] += other.slope_[i];
         coherent_[i] += other.coherent_[i];
     }
+    slope_squares_ += other.slope_squares_;
 }
 
 bool Variation::empty() const {
@@ -82,8 +84,19 @@ double Variation::coherence(std::size_t bin) const {
     return mean(coherent_, bin);
 }
 
+// The square of the mean over the mean of the squares.
+double Variation::evenness() const {
+    double all = 0, slopes = 0;
+    for (std::size_t bin = 0; bin < bins(); ++bin) {
+        all += weight_[bin];
+        slopes += slope_[bin];
+    }
+    return slope_squares_ > 0 ? slopes * slopes / (all * slope_squares_) : 0;
+}
+
 Variation Variation::negated() const {
     Variation result(-hi_, -lo_, bins());
+    result.slope_squares_ = slope_squares_;
     std::ranges::reverse_copy(weight_, result.weight_.begin());
     std::ranges::reverse_copy(slope_, result.slope_.begin());
     std::ranges::reverse_copy(coherent_, result.coherent_.begin());
@@ -97,8 +110,8 @@ namespace {
 struct AxisPieces {
     std::int64_t first, inner, edge, count;
 
-    AxisPieces(std::int64_t size, std::int64_t edge_wanted, std::int64_t most)
-        : first(size > 2 ? 1 : 0),
+    AxisPieces(std::int64_t begin, std::int64_t size, std::int64_t edge_wanted, std::int64_t most)
+        : first(begin + (size > 2 ? 1 : 0)),
           inner(size > 2 ? size - 2 : size),
           edge(std::min(edge_wanted, inner)),
           count(std::min(most, (inner + edge - 1) / edge)) {}
@@ -113,12 +126,13 @@ struct AxisPieces {
 // if the volume stays in its files.
 class VolumePlaces {
   public:
-    VolumePlaces(const Volume& volume, const ValueRange& measured, const Variation& bins)
-        : volume_(volume), measured_(measured), bins_(bins) {
+    VolumePlaces(const Volume& volume, const SampleBox& inside, const ValueRange& measured,
+                 const Variation& bins)
+        : volume_(volume), inside_(inside), measured_(measured), bins_(bins) {
         const bool large = volume.grid().sample_count() > large_volume;
         const std::int64_t along = large ? 8 : 4, most = large ? 8 : 16;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            pieces_.emplace_back(volume.grid().size[axis], along, most);
+            pieces_.emplace_back(inside.first[axis], inside.size[axis], along, most);
             inverse_step_[axis] = 1 / glm::length(volume.grid().step[axis]);
         }
     }
@@ -142,24 +156,18 @@ class VolumePlaces {
     void count_block(const std::array<std::int64_t, 3>& piece, Variation& into) const {
         SampleBox block, around;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::int64_t size = volume_.grid().size[axis];
+            const std::int64_t begin = inside_.first[axis], end = begin + inside_.size[axis];
             block.first[axis] = pieces_[axis].begin(piece[axis]);
             block.size[axis] = pieces_[axis].edge;
-            around.first[axis] = std::max<std::int64_t>(block.first[axis] - 1, 0);
+            around.first[axis] = std::max(block.first[axis] - 1, begin);
             around.size[axis] =
-                std::min(block.first[axis] + block.size[axis] + 1, size) - around.first[axis];
+                std::min(block.first[axis] + block.size[axis] + 1, end) - around.first[axis];
         }
         with_sample_type(volume_.type(), [&](auto zero) {
             using T = decltype(zero);
-            if (volume_.in_memory()) {
-                const T* const samples = static_cast<const T*>(volume_.data());
-                return count_window(SampleWindow<T>{{{0, 0, 0}, volume_.grid().size}, samples},
-                                    block, into);
-            }
-            const auto read =
-                std::make_unique_for_overwrite<T[]>(static_cast<std::size_t>(around.count()));
-            volume_.store().source().read(around, read.get());
-            count_window(SampleWindow<T>{around, read.get()}, block, into);
+            visit_window<T>(volume_, around, [&](const SampleWindow<T>& window) {
+                count_window(window, block, into);
+            });
         });
     }
 
@@ -188,7 +196,7 @@ class VolumePlaces {
         if (!is_measured(middle)) return;
         double slope = 0, first = 0, second = 0, axes = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (volume_.grid().size[axis] < 3) continue;
+            if (inside_.size[axis] < 3) continue;
             const double before = value(axis, -1), after = value(axis, 1);
             if (!is_measured(before) || !is_measured(after)) return;
             const double half = after / 2 - before / 2;
@@ -204,6 +212,7 @@ class VolumePlaces {
     bool is_measured(double value) const { return value >= measured_.lo && value <= measured_.hi; }
 
     const Volume& volume_;
+    const SampleBox inside_;
     const ValueRange measured_;
     const Variation& bins_;
     std::vector<AxisPieces> pieces_;
@@ -214,8 +223,9 @@ constexpr std::size_t measured_tets = std::size_t{1} << 17;  // more tets are sa
 
 }  // namespace
 
-Variation variation_of(const Volume& volume, const ValueRange& measured, const Variation& bins) {
-    return VolumePlaces(volume, measured, bins).count();
+Variation variation_of(const Volume& volume, const SampleBox& inside, const ValueRange& measured,
+                       const Variation& bins) {
+    return VolumePlaces(volume, inside, measured, bins).count();
 }
 
 // The gradient g of a tet fulfils dot(g, e_i) = d_i for its edges e_i from corner 0, along which

@@ -7,6 +7,7 @@
 #include "lamina/volume.h"
 #include "scene/scene.h"
 #include "volume/min_max_bricks.h"
+#include "volume/sample_source.h"
 
 namespace lamina {
 
@@ -36,6 +37,9 @@ class Variation {
     double slope(std::size_t bin) const;
     double coherence(std::size_t bin) const;
     double weight(std::size_t bin) const { return weight_[bin]; }
+    // Returns 1 if all gradients have one length, as those of a distance have, and less the more
+    // their lengths differ: .85 for a random smooth field; 0 if there is none.
+    double evenness() const;
 
     // Returns the same of the field with all values negated.
     Variation negated() const;
@@ -45,11 +49,14 @@ class Variation {
 
     double lo_, hi_;
     std::vector<double> weight_, slope_, coherent_;  // sums
+    double slope_squares_ = 0;                       // sum over all bins
 };
 
 // Measure the variation at up to 2^18 places all over the data, which do not depend on threads or
 // on where the samples are kept. Places next to a value outside of `measured` are left out.
-Variation variation_of(const Volume& volume, const ValueRange& measured, const Variation& bins);
+// `inside`: the samples that count.
+Variation variation_of(const Volume& volume, const SampleBox& inside, const ValueRange& measured,
+                       const Variation& bins);
 // In a tet the gradient is constant, and all places are coherent.
 Variation variation_of(const SceneMesh& mesh, const ValueRange& measured, const Variation& bins);
 

@@ -243,6 +243,7 @@ Adjustments adjustments_of(const Words& given, ImageColorSpace space) {
     adjustments.light = word_in<LightWord>("light", words.light);
     for (const std::string& text : words.clip) add_clip(text, adjustments.clip.planes);
     if (!words.crop.empty()) set_crop(words.crop, adjustments.clip);
+    adjustments.own_crop = !words.crop.empty();
     return adjustments;
 }
 

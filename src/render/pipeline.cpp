@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/pipeline.h"
 
+#include <fmt/format.h>
+#include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "base/client.h"
@@ -36,9 +40,9 @@ ContextChoice context_for_files(const Auto<ContextChoice>& choice) {
 }
 
 // Settles what a field that is constant in each voxel leaves no choice of: it is integrated
-// exactly, and it has no gradient that could be lit. Throws Error if the scene asks for other
-// segments.
-void settle_for_voxels(Scene& scene) {
+// exactly, and it has no gradient that could be lit. Returns why light that was left open is not
+// chosen. Throws Error if the scene asks for other segments.
+std::vector<std::string> settle_for_voxels(Scene& scene) {
     if (VolumeFile* const file = scene.volume_file())
         file->selection.lookup = VolumeLookup::nearest;
     const Auto<Classification>& asked = scene.slice.classification;
@@ -49,13 +53,15 @@ void settle_for_voxels(Scene& scene) {
             scene.file.string(), name_of(*asked));
     }
     scene.slice.classification = Classification::exact;
-    if (!scene.lighting) return;
+    if (!scene.lighting) return {};
     const bool asked_for = scene.lighting->is_given();
     scene.lighting.reset();
-    if (!asked_for) return;
-    warn(
-        "lighting: nothing is lit, because with \"lookup\": \"nearest\" the field is constant in "
-        "each voxel and has no gradient");
+    const std::string reason =
+        "because with \"lookup\": \"nearest\" the field is constant in each voxel and has no "
+        "gradient";
+    if (!asked_for) return {"lighting: not lit, " + reason};
+    warn("lighting: nothing is lit, " + reason);
+    return {};
 }
 
 }  // namespace
@@ -132,11 +138,12 @@ Choices Pipeline::chosen() {
         const Adjustments& adjustments = options_.adjustments;
         if (const auto ramp = opaque_ramp(asked_)) warn(*ramp);
         Scene scene = asked_;
+        std::vector<std::string> settled;
         if (!scene.draws_mesh() &&
             data_.volume(scene)->volume.grid().lookup == VolumeLookup::nearest)
-            settle_for_voxels(scene);
+            settled = settle_for_voxels(scene);
         data_.close_transfer_function(scene);
-        if (!leaves_something_open(scene) && !adjustments.any()) return {std::move(scene), {}};
+        if (!leaves_something_open(scene) && !adjustments.any()) return {std::move(scene), settled};
         // If the mesh is made from the volume, transfer function and camera are chosen for the
         // volume.
         const std::unique_ptr<Field> field =
@@ -147,6 +154,7 @@ Choices Pipeline::chosen() {
         result.scene.transfer_function =
             data_.marked(result.scene, *result.scene.transfer_function);
         stages_ms_["choose"] = choosing.end();
+        std::ranges::move(settled, std::back_inserter(result.reasons));
         return result;
     });
 }
@@ -286,6 +294,15 @@ const Capabilities& Pipeline::capabilities() {
     return context_->capabilities();
 }
 
+std::unique_ptr<SceneRenderer> Pipeline::renderer_of(const Scene& scene) {
+    if (scene.method == Method::project) {
+        return std::make_unique<SceneRenderer>(scene, data_.mesh(scene), capabilities(),
+                                               options_.omissions, options_.tables);
+    }
+    return std::make_unique<SceneRenderer>(scene, data_.volume(scene), capabilities(),
+                                           options_.omissions, options_.share, options_.tables);
+}
+
 Frames& Pipeline::frames() {
     if (frames_) return *frames_;
     load();
@@ -294,14 +311,7 @@ Frames& Pipeline::frames() {
         frames_ = options_.make_frames(scene_, data_, options_);
         return *frames_;
     }
-    std::unique_ptr<SceneRenderer> made;
-    if (scene_.method == Method::project) {
-        made = std::make_unique<SceneRenderer>(scene_, data_.mesh(scene_), capabilities(),
-                                               options_.omissions, options_.tables);
-    } else {
-        made = std::make_unique<SceneRenderer>(scene_, data_.volume(scene_), capabilities(),
-                                               options_.omissions, options_.share, options_.tables);
-    }
+    std::unique_ptr<SceneRenderer> made = renderer_of(scene_);
     if (options_.many_frames) made->expect_many_frames();
     own_ = made.get();
     frames_ = std::move(made);
@@ -329,6 +339,37 @@ std::string Pipeline::explanation() {
     if (scene().method == Method::trace) return chosen_text(reasons_) + plan_of_trace().explanation;
     Frames& drawing = frames();
     return in_context([&] { return chosen_text(reasons_) + drawing.explanation(); });
+}
+
+// Small pictures are drawn: both together, twice, take a tenth to a fifth of a frame.
+std::string Pipeline::light_cost() {
+    constexpr int scale = 4;  // of the picture's edges
+    if (scene().method == Method::trace || !scene_.lighting || options_.make_frames) return {};
+    SceneRenderer& drawing = renderer();
+    const auto shortest_ms = [](SceneRenderer& small) {
+        small.set_up();
+        double shortest = INFINITY;
+        for (int i = 0; i < 2; ++i) {
+            Stage frame("light_cost");
+            small.draw();
+            shortest = std::min(shortest, frame.end());
+        }
+        return shortest;
+    };
+    return in_context([&] {
+        Scene unlit = drawing.resolved().scene();
+        unlit.lighting.reset();
+        unlit.width = std::max(1, unlit.width / scale);
+        unlit.height = std::max(1, unlit.height / scale);
+        drawing.set_size(unlit.width, unlit.height);
+        const double with_light = shortest_ms(drawing);
+        drawing.set_size(scene_.width, scene_.height);
+        const double without = shortest_ms(*renderer_of(unlit));
+        return fmt::format(
+            "light\n  a frame takes {:.1f} times as long as without light (measured at {} x {}: "
+            "{:.3g} and {:.3g} ms)\n",
+            with_light / without, unlit.width, unlit.height, with_light, without);
+    });
 }
 
 void Pipeline::warn_of_plan() {

@@ -110,7 +110,10 @@ class Pipeline {
 
     const Plan& plan();
     std::string explanation();  // the plan as text, after the sentences of reasons()
-    void warn_of_plan();        // warns about the plan and the data
+    // Returns lines that say what light costs in this scene: draws small pictures with and without
+    // it. Empty if nothing is lit, or if other processes draw.
+    std::string light_cost();
+    void warn_of_plan();  // warns about the plan and the data
 
     void set_up();
     // Draws a frame with the scene's method, without reading it, so that it can be timed.
@@ -142,6 +145,7 @@ class Pipeline {
     bool changes_mesh(const Scene& next) const;
     void take(Choices next);
     Frames& frames();
+    std::unique_ptr<SceneRenderer> renderer_of(const Scene& scene);
     void drop_frames();
     template <typename Work>
     decltype(auto) in_context(const Work& work);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <optional>
 #include <random>
 #include <string>
@@ -15,6 +16,7 @@
 #include "base/enum_words.h"
 #include "choice/orientation.h"
 #include "scene/camera.h"
+#include "support/volume_of.h"
 
 namespace lamina {
 namespace {
@@ -174,6 +176,48 @@ TEST(Orientation, FollowsTheFileThenTheLongestAxis) {
     EXPECT_EQ(up(WorldAxes::unnamed, {2, 1, 2}), y);
     EXPECT_NE(orientation_of(WorldAxes::unnamed, box({1, 1, 2})).reason.find("z, the longest"),
               std::string::npos);
+}
+
+TEST(Orientation, WhatIsFlatIsSeenFromAbove) {
+    const auto side = [](WorldAxes axes, const glm::dvec3& size) {
+        const ViewTurn turn = turn_to(ViewSide::iso, orientation_of(axes, box(size)));
+        return std::pair(turn.azimuth, turn.elevation);
+    };
+    EXPECT_EQ(side(WorldAxes::named, {5, 6, .99}), std::pair(0., 90.));
+    EXPECT_EQ(side(WorldAxes::named, {5, 6, 1.01}), std::pair(30., 20.));
+    EXPECT_EQ(side(WorldAxes::unnamed, {5, 6, .5}), std::pair(30., 20.));
+}
+
+// The signs of CT and MR slices, and what lacks one of them.
+TEST(Orientation, TheHeadOfAxialSlicesIsUp) {
+    struct Slices {
+        SampleType type = SampleType::int16;
+        std::array<std::int64_t, 3> size{8, 8, 6};
+        glm::dvec3 spacing{30, 30, 20};
+        WorldAxes axes = WorldAxes::unnamed;
+    };
+    const auto up = [](const Slices& slices) {
+        Grid grid = test::grid_of(slices.size, Centering::node);
+        for (int axis = 0; axis < 3; ++axis) {
+            grid.step[static_cast<std::size_t>(axis)] = glm::dvec3(0);
+            grid.step[static_cast<std::size_t>(axis)][axis] = slices.spacing[axis];
+        }
+        grid.axes = slices.axes;
+        const auto samples = std::make_shared<std::vector<float>>(8 * 8 * 8);
+        const Volume volume(grid, slices.type,
+                            std::shared_ptr<const void>(samples, samples->data()));
+        const MinMaxBricks bricks = measure_bricks(volume);
+        const VolumeField field(volume, bricks);
+        return orientation_of(field.axes(), field.corners(), {}, field.axial_slices()).front.up;
+    };
+    const glm::dvec3 head(0, 0, -1);
+    EXPECT_EQ(up({}), head);
+    EXPECT_NE(up({.type = SampleType::float32}), head);
+    EXPECT_NE(up({.size = {8, 7, 6}}), head);
+    EXPECT_NE(up({.spacing = {30, 30, 30}}), head);  // any volume
+    EXPECT_NE(up({.spacing = {.2, .2, .5}}), head);  // of a microscope
+    EXPECT_NE(up({.spacing = {30, 30, 5}}), head);   // flat
+    EXPECT_NE(up({.axes = WorldAxes::named}), head);
 }
 
 TEST(Orientation, EveryAxisCanBeUpAndFrontsAreRightHanded) {

@@ -11,6 +11,7 @@
 #include "choice/choose.h"
 #include "choice/field.h"
 #include "choice/open_scene.h"
+#include "support/split_box.h"
 #include "support/volume_of.h"
 
 namespace lamina {
@@ -138,6 +139,88 @@ TEST(Surfaces, AreAtMostFourOfASolidThing) {
     EXPECT_LE(tops, 4u) << reasons[0];
 }
 
+bool is_cool(const glm::dvec3& color) {
+    return color.b > color.r;
+}
+
+// Waves without a frequent value, as in turbulence.
+Volume waves() {
+    return test::volume_of(test::grid_of({48, 48, 48}, Centering::node),
+                           [](double i, double j, double k) {
+                               return std::sin(.31 * i + .2 * j) + std::sin(.37 * j - .17 * k) +
+                                      std::sin(.29 * k + .1 * i);
+                           });
+}
+
+TEST(Surfaces, OfAFieldWithoutABackgroundAreItsEnds) {
+    const Volume volume = waves();
+    const MinMaxBricks bricks = measure_bricks(volume);
+    const auto [scene, reasons] = choose(picture_scene(), VolumeField(volume, bricks));
+    const TransferFunction& function = *scene.transfer_function;
+    EXPECT_NE(reasons[0].find("no value is a background"), std::string::npos) << reasons[0];
+    EXPECT_TRUE(function.transparent(-1, 1));
+    EXPECT_GT(function.at(-2.5).extinction, 0);
+    EXPECT_GT(function.at(2.5).extinction, 0);
+    EXPECT_TRUE(is_cool(function.at(-2.5).color));
+    EXPECT_FALSE(is_cool(function.at(2.5).color));
+    EXPECT_TRUE(scene.lighting);
+}
+
+TEST(Surfaces, OfTwoHalvesShowBoth) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> noise(0, .04);
+    const Volume volume = test::volume_of(test::grid_of({48, 48, 48}, Centering::node),
+                                          [&](double i, double j, double k) {
+                                              const double wave = 4 * std::sin(.4 * j + .3 * k);
+                                              return std::tanh(i - 23.5 + wave) + noise(random);
+                                          });
+    const MinMaxBricks bricks = measure_bricks(volume);
+    const auto [scene, reasons] = choose(picture_scene(), VolumeField(volume, bricks));
+    const TransferFunction& function = *scene.transfer_function;
+    EXPECT_TRUE(is_cool(function.at(-1).color));
+    EXPECT_FALSE(is_cool(function.at(1).color));
+    EXPECT_GT(function.at(-1).extinction, 0) << reasons[0];
+    EXPECT_GT(function.at(1).extinction, 0);
+}
+
+TEST(Surfaces, OfADistanceIsThatAtZero) {
+    for (const double sign : {1., -1.}) {
+        const Volume volume = test::volume_of(
+            test::grid_of({48, 48, 48}, Centering::node), [&](double i, double j, double k) {
+                return sign * (glm::length(glm::dvec3(i, j, k) - 23.5) - 14);
+            });
+        const MinMaxBricks bricks = measure_bricks(volume);
+        const auto [scene, reasons] = choose(picture_scene(), VolumeField(volume, bricks));
+        const TransferFunction& function = *scene.transfer_function;
+        EXPECT_NE(reasons[0].find("distances from a surface at 0"), std::string::npos)
+            << reasons[0];
+        EXPECT_EQ(function.at(sign * 3).extinction, 0);
+        EXPECT_GT(function.at(sign * -3).extinction, 0);
+    }
+}
+
+// A mesh is a body if its values have no background, or if those that are uncommon lie on its
+// surface; not if they are inside.
+TEST(Surfaces, OfAMeshAreThoseOfABodyIfTheyShowMore) {
+    const auto reason_for = [](const auto& value) {
+        const SceneMesh mesh = scene_mesh(Scene(), test::kuhn_box({16, 16, 16}, value));
+        const auto [scene, reasons] = choose(picture_scene(), MeshField(mesh));
+        return reasons[0];
+    };
+    const auto is_body = [](const std::string& reason) {
+        return reason.find("the mesh is a body") != std::string::npos;
+    };
+    const auto everywhere = reason_for([](const glm::dvec3& p) { return p.x + p.y * p.z; });
+    EXPECT_TRUE(is_body(everywhere)) << everywhere;
+    const auto at_walls =
+        reason_for([](const glm::dvec3& p) { return 1 - std::exp(-(p.z + .1 * p.x) / 1.5); });
+    EXPECT_TRUE(is_body(at_walls)) << at_walls;
+    const auto inside = reason_for([](const glm::dvec3& p) {
+        return std::exp(-std::pow(glm::length(p - glm::dvec3(8)) / 2.5, 2));
+    });
+    EXPECT_FALSE(is_body(inside)) << inside;
+}
+
 TEST(AutomaticLight, ShowsSurfacesButNotNoise) {
     const Scan scan;
     const auto [lit, reasons] = choose(picture_scene(), scan.field);
@@ -178,6 +261,20 @@ TEST(AutomaticLight, IsNotChosenWhereItWouldBeRefused) {
                }();
            }),
            "render.slice.tree");
+    expect(reason_for([](Scene& scene) { scene.slice.samples = 255; }), "render.slice.samples");
+    expect(reason_for([](Scene& scene) {
+               TreeSettings tree;
+               tree.factors = {8, 8};
+               scene.slice.tree = tree;
+           }),
+           "render.slice.tree");
+    expect(reason_for([](Scene& scene) { scene.slice.filter = Filter::hardware; }),
+           "render.slice.filter");
+    // Slabs that are asked for are drawn as they are.
+    Scene slabs = picture_scene();
+    slabs.slice.samples = 32;
+    slabs.slice.classification = Classification::post;
+    EXPECT_TRUE(choose(slabs, scan.field).scene.lighting);
 }
 
 TEST(AutomaticLight, IsNotChosenUnlessTheSceneLeavesItOpen) {

@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t some_bins = 32;
 
 Variation measured_of(const Volume& volume, double lo, double hi) {
-    return variation_of(volume, {lo, hi}, Variation(lo, hi, some_bins));
+    return variation_of(volume, {{0, 0, 0}, volume.grid().size}, {lo, hi},
+                        Variation(lo, hi, some_bins));
 }
 
 // A linear field has one gradient, which differences give exactly, whatever the spacings.
@@ -31,6 +32,24 @@ TEST(Variation, OfALinearFieldIsItsGradientAndCoherent) {
         EXPECT_NEAR(found.slope(found.bin_of(value)), gradient, 1e-12) << value;
         EXPECT_EQ(found.coherence(found.bin_of(value)), 1) << value;
     }
+}
+
+// The gradient of a distance has the length 1 but at its kinks; three independent normal
+// components have a length whose mean squared is 8 / (3 pi) of its mean square.
+TEST(Variation, IsEvenForADistanceAlone) {
+    const Grid grid = test::grid_of({40, 40, 40}, Centering::node);
+    const auto distance = [](double i, double j, double k) {
+        return glm::length(glm::dvec3(i, j, k) - 19.5) - 12;
+    };
+    EXPECT_GT(measured_of(test::volume_of(grid, distance), -12, 25).evenness(), .98);
+    const Volume waves = test::volume_of(grid, [](double i, double j, double k) {
+        return std::sin(.31 * i + .2 * j) + std::sin(.37 * j - .17 * k) +
+               std::sin(.29 * k + .1 * i);
+    });
+    EXPECT_LT(measured_of(waves, -3, 3).evenness(), .9);
+    EXPECT_EQ(measured_of(test::volume_of(grid, [](double, double, double) { return 1; }), 0, 2)
+                  .evenness(),
+              0);
 }
 
 TEST(Variation, OfATetIsTheGradientOfItsLinearField) {

@@ -55,10 +55,35 @@ TEST(Pipeline, IntegratesVoxelsExactlyAndUnlit) {
     EXPECT_FALSE(pipeline.scene().lighting);
     ASSERT_EQ(heard.texts.size(), 1u);
     EXPECT_NE(heard.texts[0].find("nothing is lit"), std::string::npos) << heard.texts[0];
+    // Light that was left open is not chosen, for a reason.
+    document["lighting"] = "auto";
+    Pipeline open(read_scene(document, "s"));
+    EXPECT_FALSE(open.scene().lighting);
+    ASSERT_EQ(open.reasons().size(), 1u);
+    EXPECT_NE(open.reasons()[0].find("lighting: not lit, because"), std::string::npos);
+    EXPECT_EQ(heard.texts.size(), 1u);
     document["render"]["slice"]["classification"] = "preintegrated";
     Pipeline slabs(read_scene(document, "s"));
     expect_error([&] { slabs.scene(); },
                  {"s: render.slice.classification: found \"preintegrated\"", "\"nearest\""});
+}
+
+// What light costs is measured without a trace in the picture that is drawn next.
+TEST(Pipeline, MeasuresWhatLightCosts) {
+    nlohmann::json document = minimal_scene();
+    document["image"] = {{"width", 48}, {"height", 40}};
+    Pipeline unlit(read_scene(document, "s"));
+    EXPECT_EQ(unlit.light_cost(), "");
+    document["lighting"] = nlohmann::json::object();
+    Pipeline lit(read_scene(document, "s")), measured(read_scene(document, "s"));
+    const std::string cost = measured.light_cost();
+    EXPECT_NE(cost.find("times as long as without light (measured at 12 x 10"), std::string::npos)
+        << cost;
+    Image expected, picture;
+    lit.draw(expected);
+    measured.draw(picture);
+    ASSERT_EQ(picture.width, 48);
+    EXPECT_TRUE(picture.rgba == expected.rgba);
 }
 
 // Writes 40 samples each of the labels 0, 9 and `last`.

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "choice/constant_border.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "choice/field.h"
+
+namespace lamina {
+
+namespace {
+
+// Layers are no border if at least this share of the samples behind them has their value: then they
+// are the empty space around a thing.
+constexpr double most_alike = .5;
+constexpr std::int64_t most_share = 3;  // at least 1 / most_share of an axis is inside
+
+// Takes layers away from the sides of a volume.
+template <typename T>
+class Peeling {
+  public:
+    explicit Peeling(const Volume& volume) : volume_(volume) {}
+
+    // Sides behind which most samples are alike are left as they are, and the others are sought
+    // again: they may reach farther then.
+    ConstantBorder peel() {
+        do {
+            found_ = {};
+            found_.inside.size = volume_.grid().size;
+            for (bool more = true; more;) {
+                more = false;
+                for (const std::size_t axis : {2, 1, 0}) {
+                    for (const bool upper : {false, true}) more = take_away(axis, upper) || more;
+                }
+            }
+        } while (leave_empty_space());
+        return std::move(found_);
+    }
+
+  private:
+    // Returns the layers number first .. first + count - 1, counted inwards from a side.
+    SampleBox layers(std::size_t axis, bool upper, std::int64_t first, std::int64_t count) const {
+        SampleBox box = found_.inside;
+        box.first[axis] += upper ? box.size[axis] - first - count : first;
+        box.size[axis] = count;
+        return box;
+    }
+
+    // Calls visit(begin, end) for the box's rows of samples along x until it returns false.
+    template <typename Visit>
+    void for_each_row(const SampleBox& box, const Visit& visit) const {
+        visit_window<T>(volume_, box, [&](const SampleWindow<T>& window) {
+            for (std::int64_t z = box.first[2]; z < box.first[2] + box.size[2]; ++z) {
+                for (std::int64_t y = box.first[1]; y < box.first[1] + box.size[1]; ++y) {
+                    const T* const row = window.row(y, z) + (box.first[0] - window.box.first[0]);
+                    if (!visit(row, row + box.size[0])) return;
+                }
+            }
+        });
+    }
+
+    // Returns the share of samples that have a value.
+    double share(const SampleBox& box, T value) const {
+        std::int64_t alike = 0;
+        for_each_row(box, [&](const T* begin, const T* end) {
+            alike += std::count(begin, end, value);
+            return true;
+        });
+        return static_cast<double>(alike) / static_cast<double>(box.count());
+    }
+
+    bool all_are(const SampleBox& box, T value) const {
+        bool all = true;
+        for_each_row(box, [&](const T* begin, const T* end) {
+            return all = std::all_of(begin, end, [&](T one) { return one == value; });
+        });
+        return all;
+    }
+
+    // Returns the number of layers, up to `most`, whose samples all have a value.
+    std::int64_t width(std::size_t axis, bool upper, T value, std::int64_t most) const {
+        std::int64_t found = 0;
+        if (axis > 0) {
+            while (found < most && all_are(layers(axis, upper, found, 1), value)) ++found;
+            return found;
+        }
+        // Layers across x lie apart in memory, so rows are read instead, plane by plane.
+        found = most;
+        const SampleBox& inside = found_.inside;
+        for (std::int64_t z = 0; z < inside.size[2] && found > 0; ++z) {
+            SampleBox plane = layers(axis, upper, 0, found);
+            plane.first[2] += z;
+            plane.size[2] = 1;
+            for_each_row(plane, [&](const T* begin, const T* end) {
+                const auto other = [&](T one) { return one != value; };
+                found = std::min<std::int64_t>(
+                    found, upper ? std::find_if(std::reverse_iterator(end),
+                                                std::reverse_iterator(begin), other) -
+                                       std::reverse_iterator(end)
+                                 : std::find_if(begin, end, other) - begin);
+                return found > 0;
+            });
+        }
+        return found;
+    }
+
+    // `otherwise`: returned if all are NaN, which has no order.
+    double median(const SampleBox& box, double otherwise) const {
+        std::vector<T> values;
+        values.reserve(static_cast<std::size_t>(box.count()));
+        for_each_row(box, [&](const T* begin, const T* end) {
+            std::copy_if(begin, end, std::back_inserter(values), [](T one) { return one == one; });
+            return true;
+        });
+        if (values.empty()) return otherwise;
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::ranges::nth_element(values, middle);
+        return static_cast<double>(*middle);
+    }
+
+    T first_of(const SampleBox& box) const {
+        const SampleBox one{box.first, {1, 1, 1}};
+        return visit_window<T>(volume_, one, [&](const SampleWindow<T>& window) {
+            return window.at(one.first[0], one.first[1], one.first[2]);
+        });
+    }
+
+    bool take_away(std::size_t axis, bool upper) {
+        const std::int64_t size = volume_.grid().size[axis];
+        const std::int64_t most = found_.inside.size[axis] - size / most_share - 1;
+        if (most <= 0 || left_[axis][upper ? 1 : 0]) return false;
+        const T value = first_of(layers(axis, upper, 0, 1));
+        const std::int64_t alike = width(axis, upper, value, most);
+        if (alike == 0) return false;
+        found_.layers.push_back(
+            {axis, upper, alike, static_cast<double>(value), 0, layers(axis, upper, 0, alike)});
+        found_.inside = layers(axis, upper, alike, found_.inside.size[axis] - alike);
+        return true;
+    }
+
+    // Marks sides whose layers are the empty space around a thing. Returns false if there are none.
+    bool leave_empty_space() {
+        bool any = false;
+        for (BorderLayers& one : found_.layers) {
+            const SampleBox behind = layers(one.axis, one.upper, 0, 1);
+            one.behind = median(behind, one.value);
+            if (share(behind, static_cast<T>(one.value)) < most_alike) continue;
+            any = left_[one.axis][one.upper ? 1 : 0] = true;
+        }
+        return any;
+    }
+
+    const Volume& volume_;
+    std::array<std::array<bool, 2>, 3> left_{};  // by axis and side
+    ConstantBorder found_;
+};
+
+}  // namespace
+
+std::optional<ConstantBorder> find_constant_border(const Volume& volume) {
+    if (volume.grid().sample_count() > large_volume) return std::nullopt;
+    ConstantBorder found = with_sample_type(
+        volume.type(), [&](auto zero) { return Peeling<decltype(zero)>(volume).peel(); });
+    if (found.layers.empty()) return std::nullopt;
+    return found;
+}
+
+}  // namespace lamina

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "choice/constant_border.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "choice/choose.h"
+#include "choice/field.h"
+#include "choice/open_scene.h"
+#include "choice/words.h"
+#include "support/volume_of.h"
+
+namespace lamina {
+namespace {
+
+constexpr std::int64_t edge = 40;                     // samples of the scan along an axis
+constexpr double air = 20, flesh = 100, bone = 200;   // values
+constexpr double flesh_radius = 16, bone_radius = 8;  // samples
+constexpr std::array<double, 3> widths{1, 5, 20};     // of borders, in samples
+
+// Widths of a border at the beginning and the end of each axis.
+struct Widths {
+    std::array<std::int64_t, 3> before{}, after{};
+
+    static Widths all(std::int64_t width) { return {{width, width, width}, {width, width, width}}; }
+};
+
+// A noisy scan of a ball with another one inside. Around it is a border of one value, so that
+// sample (0, 0, 0) of the scan has its place.
+template <typename Sample>
+Volume bordered(double value, const Widths& widths) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0, 4);
+    std::vector<double> scan;
+    for (std::int64_t i = 0; i < edge * edge * edge; ++i) {
+        const glm::dvec3 at(i % edge, i / edge % edge, i / (edge * edge));
+        const double distance = glm::length(at - glm::dvec3(double{edge - 1} / 2));
+        const auto inside = [&](double radius) {
+            return std::clamp((radius - distance) / 2 + .5, 0., 1.);
+        };
+        const double mean =
+            air + (flesh - air) * inside(flesh_radius) + (bone - flesh) * inside(bone_radius);
+        scan.push_back(std::round(mean + noise(random)));
+    }
+    Grid grid = test::grid_of({1, 1, 1}, Centering::node);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        grid.size[axis] = edge + widths.before[axis] + widths.after[axis];
+        grid.origin[static_cast<int>(axis)] = -static_cast<double>(widths.before[axis]);
+    }
+    return test::volume_of<Sample>(grid, [&](double i, double j, double k) {
+        const std::array<double, 3> at{i, j, k};
+        std::int64_t place = 0;
+        for (const std::size_t axis : {2, 1, 0}) {
+            const auto inside = static_cast<std::int64_t>(at[axis]) - widths.before[axis];
+            if (inside < 0 || inside >= edge) return value;
+            place = place * edge + inside;
+        }
+        return scan[static_cast<std::size_t>(place)];
+    });
+}
+
+Choices chosen_for(const Volume& volume, Scene scene = test::open_scene(),
+                   const Adjustments& adjustments = {}) {
+    const MinMaxBricks bricks = measure_bricks(volume);
+    return choose(std::move(scene), VolumeField(volume, bricks), adjustments);
+}
+
+// Tells whether the clip leaves exactly the scan.
+void expect_scan_is_left(const Clip& clip) {
+    ASSERT_EQ(clip.planes.size(), 6u);
+    for (const ClipPlane& plane : clip.planes) {
+        const double along = plane.normal.x + plane.normal.y + plane.normal.z;  // 1 or -1
+        EXPECT_EQ(glm::dot(plane.point, plane.normal) * along, along > 0 ? 0 : edge - 1);
+    }
+}
+
+template <typename Sample>
+void expect_picture_without_border(double value, bool shows) {
+    const Choices bare = chosen_for(bordered<Sample>(value, {}));
+    ASSERT_TRUE(bare.scene.clip.keeps_all());
+    for (const double width : widths) {
+        const Choices found =
+            chosen_for(bordered<Sample>(value, Widths::all(static_cast<std::int64_t>(width))));
+        SCOPED_TRACE(fmt::format("{} samples of {}", width, value));
+        EXPECT_EQ(found.scene.transfer_function, bare.scene.transfer_function);
+        if (shows)
+            expect_scan_is_left(found.scene.clip);
+        else
+            EXPECT_TRUE(found.scene.clip.keeps_all());
+    }
+}
+
+TEST(ConstantBorder, ChangesNoTransferFunctionAndIsCutAwayIfItShows) {
+    expect_picture_without_border<std::int16_t>(3000, true);
+    expect_picture_without_border<std::int16_t>(flesh, true);
+    expect_picture_without_border<std::int16_t>(bone, true);
+    expect_picture_without_border<std::uint8_t>(255, true);
+    expect_picture_without_border<float>(flesh + .5, true);
+}
+
+TEST(ConstantBorder, StaysIfItDoesNotShow) {
+    expect_picture_without_border<std::int16_t>(-2000, false);
+    expect_picture_without_border<std::uint8_t>(0, false);
+}
+
+TEST(ConstantBorder, IsFoundOnOneSideAlone) {
+    for (const std::size_t axis : {0, 1, 2}) {
+        for (const bool after : {false, true}) {
+            Widths plate;
+            (after ? plate.after : plate.before)[axis] = 3;
+            const Choices found = chosen_for(bordered<std::uint8_t>(230, plate));
+            ASSERT_EQ(found.scene.clip.planes.size(), 1u);
+            const ClipPlane& plane = found.scene.clip.planes[0];
+            glm::dvec3 normal(0);
+            normal[static_cast<int>(axis)] = after ? -1 : 1;
+            EXPECT_EQ(plane.normal, normal);
+            EXPECT_EQ(glm::dot(plane.point, normal), after ? 1 - edge : 0);
+        }
+    }
+}
+
+TEST(ConstantBorder, IsSaidAndKeptIfAsked) {
+    const Volume volume = bordered<std::uint8_t>(255, Widths::all(2));
+    const auto said = [](const Choices& choices) {
+        return std::ranges::any_of(choices.reasons, [](const std::string& reason) {
+            return reason.find("border of 255, up to 2 samples wide") != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(said(chosen_for(volume)));
+    Words words;
+    words.crop = ":,:,:";
+    const Choices kept =
+        chosen_for(volume, test::open_scene(), adjustments_of(words, ImageColorSpace::linear));
+    EXPECT_FALSE(said(kept));
+    EXPECT_TRUE(kept.scene.clip.keeps_all());
+    // What the scene itself says stays.
+    Scene given = test::open_scene();
+    given.transfer_function = TransferFunction::linear({{0, {}}, {255, {glm::dvec3(1), 1}}});
+    EXPECT_TRUE(chosen_for(volume, given).scene.clip.keeps_all());
+    Scene boxed = test::open_scene();
+    boxed.clip.box = ClipBox{glm::dvec3(-2), glm::dvec3(30)};
+    EXPECT_TRUE(chosen_for(volume, boxed).scene.clip.planes.empty());
+}
+
+// The empty space around a thing has the value of what lies behind it.
+TEST(ConstantBorder, IsNotTheAirAroundAThing) {
+    const Volume volume = test::volume_of<std::uint8_t>(
+        test::grid_of({30, 30, 30}, Centering::node), [](double i, double j, double k) {
+            return glm::length(glm::dvec3(i, j, k) - 14.5) < 9 ? 200 : 0;
+        });
+    EXPECT_FALSE(find_constant_border(volume));
+}
+
+}  // namespace
+}  // namespace lamina
