@@ -52,11 +52,7 @@ colormaps = tuple(_lamina.colormap_names())
 __all__ = [
     "Camera", "Changes", "Comparison", "Error", "Keywords", "Light", "Lighting", "Mesh", "Norms", "Omission",
     "Picture", "PictureWarning", "Plan", "PrecisionWarning", "Sampler", "Scene", "Session", "Study", "TransferFunction",
-<<<<<<< HEAD
-    "Turntable", "Volume", "colormaps", "compare", "info", "mesh", "read", "render", "study", "trace",
-=======
-    "Turntable", "Volume", "colormaps", "compare", "mesh", "read", "render", "save_film", "study", "trace",
->>>>>>> b8ae2d19f9947b1969a6cf3df95b9b878e36d8ba
+    "Turntable", "Volume", "colormaps", "compare", "info", "mesh", "read", "render", "save_film", "study", "trace",
 ]
 
 for _name in __all__:
