@@ -123,5 +123,78 @@ TEST_P(ClosedBox, TheEyeInAnEdgeOfAVoxelSeesIt) {
     EXPECT_LE(linf(draw(voxel, scene), reference), promised);
 }
 
+// Noise, whose cells differ in colour but not in extinction: a cell that a ray leaves out or counts
+// twice changes its opacity by that of the cell.
+constexpr double cell_extinction = .75;
+
+Scene scene_of_cells(const Volume& volume, int rays, Projection projection) {
+    const ValueRange range = measure_bricks(volume).whole;
+    Scene scene =
+        exact_scene(TransferFunction::linear({knot(range.lo, {1, 0, 0}, cell_extinction),
+                                              knot(range.hi, {0, 0, 1}, cell_extinction)}),
+                    projection);
+    scene.camera->up = {0, 1, 0};
+    scene.width = scene.height = rays;
+    return scene;
+}
+
+// Returns the largest difference of a pixel's opacity from that of its ray's chord of the box.
+double worst_opacity(const Image& image, const View& view, const glm::dvec3& box) {
+    double worst = 0;
+    for (int row = 0; row < image.height; ++row) {
+        for (int column = 0; column < image.width; ++column) {
+            const View::Ray ray = view.ray(column, row);
+            double enter = 0, leave = INFINITY;
+            for (int axis = 0; axis < 3; ++axis) {
+                if (ray.direction[axis] == 0) continue;  // the box holds all rays
+                const double one = -ray.origin[axis] / ray.direction[axis],
+                             other = (box[axis] - ray.origin[axis]) / ray.direction[axis];
+                enter = std::max(enter, std::min(one, other));
+                leave = std::min(leave, std::max(one, other));
+            }
+            const double chord = std::max(leave - enter, 0.0) * glm::length(ray.direction);
+            worst = std::max(worst, std::abs(double{image.pixel(column, row)[3]} +
+                                             std::expm1(-cell_extinction * chord)));
+        }
+    }
+    return worst;
+}
+
+// Each of up to 3 * 16 segments has two ends, whose places in a cell add a rounding of 2^-24 at
+// each cell before, and is composited with a rounding of 2^-24.
+constexpr double most_cells = 48;
+constexpr double rounding_of_walk = most_cells * (most_cells * cell_extinction + 1) * 0x1p-24;
+
+// A million rays along an axis, through samples, along edges and along faces of cells, in all
+// fourths of cells. The box is closed, so it holds all.
+TEST_P(ClosedBox, CellsOfParallelRaysHaveNoGap) {
+    constexpr int cells = 256, rays = 4 * cells + 1;
+    const Volume volume = noise<std::uint8_t>({cells + 1, cells + 1, 3}, Centering::node, 255);
+    Scene scene = scene_of_cells(volume, rays, Projection::orthographic);
+    scene.camera->eye = {cells / 2., cells / 2., 5};
+    scene.camera->center = {cells / 2., cells / 2., 1};
+    scene.camera->height = rays / 4.;
+    const View view(*scene.camera, rays, rays);
+    EXPECT_LE(worst_opacity(draw(volume, scene), view, {cells, cells, 2}), rounding_of_walk);
+}
+
+// The eye lies in planes of samples: rays of the middle row and column run in faces of cells, those
+// of diagonals through edges.
+TEST_P(ClosedBox, CellsSeenFromTheirPlanesHaveNoGap) {
+    constexpr int cells = 16, rays = 301;
+    const Volume volume =
+        noise<std::uint8_t>({cells + 1, cells + 1, cells + 1}, Centering::node, 255);
+    for (const glm::dvec3& eye :
+         {glm::dvec3(8, 8, 40), glm::dvec3(10, 4, 28), glm::dvec3(9, 9, 17)}) {
+        Scene scene = scene_of_cells(volume, rays, Projection::perspective);
+        scene.camera->eye = eye;
+        scene.camera->center = eye - glm::dvec3(0, 0, 1);
+        scene.camera->fov_y = 50;
+        const View view(*scene.camera, rays, rays);
+        EXPECT_LE(worst_opacity(draw(volume, scene), view, glm::dvec3(cells)), rounding_of_walk)
+            << eye.x << " " << eye.y << " " << eye.z;
+    }
+}
+
 }  // namespace
 }  // namespace lamina
