@@ -231,7 +231,11 @@ void GlTetCodes::composite(const TetProjector& projector,
             list_ms_ += tiling.end();
             picture.bind(picture_binding, 0, height_);
             dispatch();
-            gl::api().Finish();  // before the buffers are written again
+            // While one round of lists is drawn, the next one is made.
+            gl::Fence& drawn = drawn_[rounds_++ % drawn_.size()];
+            drawn.wait();
+            drawn.set();
+            gl::api().Flush();
             check_interrupt();
             begin += fitting;
         }

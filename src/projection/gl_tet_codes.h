@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -85,6 +86,8 @@ class GlTetCodes : public ProjectRenderer {
     std::size_t most_entries_;        // of all lists
     gl::Timeline timeline_;
     double list_ms_ = 0;
+    std::array<gl::Fence, 2> drawn_;  // of the last rounds of lists
+    std::size_t rounds_ = 0;          // of lists, so far
     // The following belong to a batch.
     std::vector<SilhouetteRecord> records_;
     std::vector<GradientRecord> gradient_records_;
