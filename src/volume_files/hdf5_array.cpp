@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "volume_files/hdf5_filters.h"
 #include "volume_files/stored_samples.h"
 
 namespace lamina {
@@ -187,15 +188,6 @@ Hdf5Array::Hdf5Array(Hdf5Handle set, std::string name)
     memory_type_ = is_byte_of_bits(stored.id()) ? H5T_NATIVE_B8 : memory_type(type_);
 }
 
-// Filters that libhdf5 lacks (https://github.com/HDFGroup/hdf5_plugins,
-// RegisteredFilterPlugins.md).
-constexpr struct {
-    int number;
-    const char* name;
-} other_filters[] = {{307, "bzip2"},        {32000, "LZF"}, {32001, "Blosc"}, {32004, "LZ4"},
-                     {32008, "bitshuffle"}, {32013, "ZFP"}, {32015, "zstd"},  {32017, "SZ"},
-                     {32018, "FCIDECOMP"},  {32024, "SZ3"}, {32026, "Blosc2"}};
-
 // Throws Error if the data set is packed by a filter that this machine's library does not have.
 void Hdf5Array::expect_filters() const {
     const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
@@ -208,15 +200,14 @@ void Hdf5Array::expect_filters() const {
             H5Pget_filter2(properties.id(), static_cast<unsigned>(i), &flags, &values, nullptr,
                            sizeof word, word, &config);
         if (filter >= 0 && H5Zfilter_avail(filter) <= 0) {
-            const auto known = std::ranges::find(
-                other_filters, filter, [](const auto& one) -> H5Z_filter_t { return one.number; });
+            const std::string known = filter_name(filter);
             fail(
                 "{}: found the filter {} ({}), expected one that HDF5 has here: h5repack -f NONE, "
                 "or h5py with hdf5plugin, writes the data without it",
                 name_, filter,
-                known != std::end(other_filters) ? known->name
-                : word[0] == '\0'                ? "without a name"
-                                                 : one_line(word));
+                !known.empty()    ? known
+                : word[0] == '\0' ? "without a name"
+                                  : one_line(word));
         }
     }
 }

@@ -9,6 +9,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
+#include "volume_files/hdf5_filters.h"
 #include "volume_files/volume_formats.h"
 
 namespace lamina {
@@ -82,6 +83,7 @@ FoundLinks links_in(hid_t file, const std::string& name) {
 Hdf5Files::Hdf5Files(const std::string& file)
     : name_(file), paths_{file}, access_(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown here, not printed
+    add_lzf_filter();
     for (const char* const folder : {"HDF5_EXT_PREFIX", "HDF5_VDS_PREFIX", "HDF5_EXTFILE_PREFIX"})
         unsetenv(folder);
     // The folder of the file that names others: libhdf5 looks there first, as found() does.

@@ -153,6 +153,20 @@ def labels(h5py, cases, write, add, bad):
             group[name] = np.arange(count) * step
             group[name].attrs["units"] = unit
     add("nexus.h5", array, diagonal(.5, .25, 2), unit="mm")
+    # LZF: runs, repetitions near and far, chunks that it does not make smaller, and damaged ones.
+    long = (np.arange(64 * 65 * 66) // 37 % 300 + 1000 * (np.arange(64 * 65 * 66) % 1979 == 0)).astype("<i2")
+    noise = np.random.default_rng(5).integers(-30000, 30000, (8, 9, 10)).astype("<i2")
+    long = long.reshape(64, 65, 66)
+    for file, values, how in (("lzf", long, {}), ("lzf_shuffle", long, {"shuffle": True}), ("lzf_noise", noise, {}),
+                              ("lzf_zeros", noise * 0, {"chunks": (5, 4, 7)})):
+        write(f"{file}.h5", values, compression="lzf", **how)
+        add(f"{file}.h5", values)
+    stored = bytearray(open(cases.path("lzf_zeros.h5"), "rb").read())
+    with h5py.File(cases.path("lzf_zeros.h5")) as file:
+        place = file["v"].id.get_chunk_info(0).byte_offset
+    stored[place + 1:place + 4] = b"\xff\xff\xff"
+    open(cases.path("lzf_damaged.h5"), "wb").write(stored)
+    bad("lzf_damaged.h5", "lzf_damaged.h5:/v")
     with h5py.File(cases.path("shuffled.h5"), "w") as file:
         how = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
         how.set_chunk(SHAPE)
