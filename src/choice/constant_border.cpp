@@ -21,7 +21,7 @@ constexpr std::int64_t most_share = 3;  // at least 1 / most_share of an axis is
 template <typename T>
 class Peeling {
   public:
-    explicit Peeling(const Volume& volume) : volume_(volume) {}
+    Peeling(const Volume& volume, double lowest) : volume_(volume), lowest_(lowest) {}
 
     // Sides behind which most samples are alike are left as they are, and the others are sought
     // again: they may reach farther then.
@@ -36,6 +36,8 @@ class Peeling {
                 }
             }
         } while (leave_empty_space());
+        // What holds one value alone has nothing to show without its border.
+        if (all_are(found_.inside, first_of(found_.inside))) return {};
         return std::move(found_);
     }
 
@@ -132,6 +134,7 @@ class Peeling {
         const std::int64_t most = found_.inside.size[axis] - size / most_share - 1;
         if (most <= 0 || left_[axis][upper ? 1 : 0]) return false;
         const T value = first_of(layers(axis, upper, 0, 1));
+        if (static_cast<double>(value) == lowest_) return false;
         const std::int64_t alike = width(axis, upper, value, most);
         if (alike == 0) return false;
         found_.layers.push_back(
@@ -153,16 +156,17 @@ class Peeling {
     }
 
     const Volume& volume_;
+    const double lowest_;
     std::array<std::array<bool, 2>, 3> left_{};  // by axis and side
     ConstantBorder found_;
 };
 
 }  // namespace
 
-std::optional<ConstantBorder> find_constant_border(const Volume& volume) {
+std::optional<ConstantBorder> find_constant_border(const Volume& volume, double lowest) {
     if (volume.grid().sample_count() > large_volume) return std::nullopt;
     ConstantBorder found = with_sample_type(
-        volume.type(), [&](auto zero) { return Peeling<decltype(zero)>(volume).peel(); });
+        volume.type(), [&](auto zero) { return Peeling<decltype(zero)>(volume, lowest).peel(); });
     if (found.layers.empty()) return std::nullopt;
     return found;
 }

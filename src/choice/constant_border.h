@@ -31,9 +31,10 @@ struct ConstantBorder {
 };
 
 // Finds layers of one value at the sides of a volume, behind which most samples have others: up to
-// two thirds of the samples along an axis. Nothing in volumes that are large (large_volume),
-// because they may stay in their files.
-std::optional<ConstantBorder> find_constant_border(const Volume& volume);
+// two thirds of the samples along an axis. Layers of the lowest value are no border: they are the
+// empty space around a thing, or padding that is transparent anyway. Nothing in volumes that are
+// large (large_volume), because they may stay in their files.
+std::optional<ConstantBorder> find_constant_border(const Volume& volume, double lowest);
 
 // Calls visitor(a SampleWindow<T> with the samples of a box), and returns its result. A window in
 // memory holds the whole volume; of a volume that stays in its files, the box is read. T: the type
