@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <utility>
 
@@ -368,6 +370,41 @@ std::vector<glm::dvec3> kept_of(const std::vector<glm::dvec3>& pairs, const Half
     return kept;
 }
 
+// Tells for each code of whole samples, from the type's lowest one on, whether a voxel with it is
+// kept.
+template <typename Sample>
+std::vector<char> kept_codes(const Volume& volume, std::span<const IndexPlane> planes) {
+    constexpr int lowest = std::numeric_limits<Sample>::min();
+    constexpr std::size_t count = std::size_t{1} << 8 * sizeof(Sample);
+    const auto& size = volume.grid().size;
+    const auto* const samples = static_cast<const Sample*>(volume.data());
+    std::vector<char> kept(count);
+    std::mutex adding;
+    parallel_for(size[2], 1, [&](std::int64_t z) {
+        std::vector<char> here(count);
+        for (std::int64_t y = 0; y < size[1]; ++y) {
+            // Voxels of the row between which no plane cuts a whole one away: the distance of the
+            // farthest corner is linear along the row.
+            double first = 0, last = static_cast<double>(size[0] - 1);
+            for (const IndexPlane& plane : planes) {
+                const glm::dvec3 n = plane.normal, reach = 0.5 * glm::abs(n);
+                const double at = plane.distance(glm::dvec3(0, y, z)) + reach.x + reach.y + reach.z;
+                if (n.x > 0) first = std::max(first, std::floor(-at / n.x) + 1);
+                if (n.x < 0) last = std::min(last, std::ceil(-at / n.x) - 1);
+                if (n.x == 0 && at <= 0) last = -1;
+            }
+            if (first > last) continue;
+            const Sample* const row = samples + (z * size[1] + y) * size[0];
+            const auto end = static_cast<std::int64_t>(last);
+            for (auto x = static_cast<std::int64_t>(first); x <= end; ++x)
+                here[static_cast<std::size_t>(row[x] - lowest)] = 1;
+        }
+        const std::scoped_lock lock(adding);
+        for (std::size_t i = 0; i < count; ++i) kept[i] |= here[i];
+    });
+    return kept;
+}
+
 }  // namespace
 
 double VolumeField::spacing() const {
@@ -433,6 +470,23 @@ std::optional<BorderlessField> VolumeField::without_border() const {
     }
     result.field = std::make_unique<VolumeField>(volume_, bricks_, values_, std::move(border));
     return result;
+}
+
+std::optional<std::vector<double>> VolumeField::kept_values(const Clip& clip) const {
+    if (!whole_numbers() || !volume_.in_memory()) return std::nullopt;
+    const std::vector<IndexPlane> planes = index_planes(clip, volume_.grid());
+    std::vector<double> values;
+    const auto add = [&](const std::vector<char>& kept, int lowest) {
+        for (std::size_t code = 0; code < kept.size(); ++code)
+            if (kept[code] != 0) values.push_back(static_cast<double>(code) + lowest);
+    };
+    if (volume_.type() == SampleType::uint8)
+        add(kept_codes<std::uint8_t>(volume_, planes), 0);
+    else if (volume_.type() == SampleType::uint16)
+        add(kept_codes<std::uint16_t>(volume_, planes), 0);
+    else
+        add(kept_codes<std::int16_t>(volume_, planes), std::numeric_limits<std::int16_t>::min());
+    return values;
 }
 
 std::vector<glm::dvec3> VolumeField::shown_points(const TransferFunction& transfer_function,
@@ -600,7 +654,7 @@ double diagonal_of(const Field& field) {
     return glm::distance(corners.front(), corners.back());
 }
 
-AnnotatedData annotated_data(const Field& field, bool with_labels) {
+AnnotatedData annotated_data(const Field& field, bool with_labels, const Clip& clip) {
     const VolumeLabels* const named = field.labels();
     AnnotatedData data{field.quantity(),
                        field.length_unit(),
@@ -619,6 +673,12 @@ AnnotatedData annotated_data(const Field& field, bool with_labels) {
             data.labels.push_back(*next);
         else
             data.labels.push_back({code, fmt::format("{:.0f}", code)});
+    }
+    if (clip.keeps_all()) return data;
+    if (const auto kept = field.kept_values(clip)) {
+        std::erase_if(data.labels, [&](const Label& label) {
+            return !std::ranges::binary_search(*kept, label.code);
+        });
     }
     return data;
 }

@@ -62,6 +62,12 @@ class Field {
     // Returns the distribution of the finite values by volume. Large data are sampled evenly.
     virtual ValueDistribution distribution() const = 0;
 
+    // Returns the values, ascending, of the samples of which the clip keeps a part, if that is
+    // quick to find; nothing else.
+    virtual std::optional<std::vector<double>> kept_values(const Clip&) const {
+        return std::nullopt;
+    }
+
     // Measures how the field varies, in the bins of an empty Variation (variation_of()).
     virtual Variation variation(const ValueRange& measured, const Variation& bins) const = 0;
     // Tells whether the data end at the surface of a thing, as meshes do: then a faint outline of
@@ -104,6 +110,8 @@ class VolumeField : public Field {
     const VolumeLabels* labels() const override;
     double least_padding_share() const override { return least_padding; }
     ValueDistribution distribution() const override;
+    // Of whole numbers in memory. A voxel is kept unless a single plane cuts all of it away.
+    std::optional<std::vector<double>> kept_values(const Clip& clip) const override;
     Variation variation(const ValueRange& measured, const Variation& bins) const override {
         return variation_of(volume_, inside(), measured, bins);
     }
@@ -161,8 +169,8 @@ class MeshField : public Field {
 double diagonal_of(const Field& field);
 
 // Returns what annotations tell of the data. `with_labels`: lists the labels that occur in them,
-// for which the values are counted.
-AnnotatedData annotated_data(const Field& field, bool with_labels);
+// for which the values are counted, without those of which `clip` is known to keep nothing.
+AnnotatedData annotated_data(const Field& field, bool with_labels, const Clip& clip = {});
 
 // Returns world points whose convex hull holds all visible cells, outer half voxels included; none
 // if no cell is visible. A cell is visible if shows(range of its corners' finite samples) is true;

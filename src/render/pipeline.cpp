@@ -415,11 +415,13 @@ const AnnotatedData& Pipeline::annotated() {
         drawn = data_.mesh(scene_);
     else
         drawn = data_.volume(scene_);
-    if (annotated_ && annotated_of_.lock() == drawn && annotated_labels_ == labels)
-        return *annotated_;
+    const bool known = annotated_ && annotated_of_.lock() == drawn && annotated_labels_ == labels &&
+                       annotated_clip_ == scene_.clip;
+    if (known) return *annotated_;
     annotated_of_ = drawn;
     annotated_labels_ = labels;
-    return annotated_.emplace(annotated_data(*field(), labels));
+    annotated_clip_ = scene_.clip;
+    return annotated_.emplace(annotated_data(*field(), labels, scene_.clip));
 }
 
 template <typename Real>

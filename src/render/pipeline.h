@@ -177,6 +177,7 @@ class Pipeline {
     std::optional<AnnotatedData> annotated_;
     std::weak_ptr<const void> annotated_of_;
     bool annotated_labels_ = false;  // with the labels listed
+    Clip annotated_clip_;            // of which the labels are
     std::map<std::string, double> stages_ms_;
     std::optional<std::int64_t> counted_fragments_;
     int frames_drawn_ = 0;

@@ -10,8 +10,11 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <set>
+#include <vector>
 
 #include "base/memory.h"
+#include "facts/volume_facts.h"
 #include "support/volume_of.h"
 
 namespace lamina {
@@ -170,6 +173,72 @@ TEST(ShownCells, AreWholeBricksInLargeVolumes) {
     expect_reach({0, 1, 0}, 30 * 4, 1023);
     expect_reach({0, 0, 1}, 2 * 4, 257);
     EXPECT_EQ(points.size(), 16u);
+}
+
+// The values of samples of which a clip keeps a part, by testing every voxel's corners.
+std::vector<double> kept_by_search(const Volume& volume, const std::vector<IndexPlane>& planes) {
+    const auto& size = volume.grid().size;
+    const auto* const samples = static_cast<const std::int16_t*>(volume.data());
+    std::set<double> kept;
+    for (std::int64_t i = 0; i < size[0] * size[1] * size[2]; ++i) {
+        const glm::dvec3 at(i % size[0], i / size[0] % size[1], i / size[0] / size[1]);
+        const bool all = std::ranges::all_of(planes, [&](const IndexPlane& plane) {
+            bool any = false;
+            for (int corner = 0; corner < 8; ++corner) {
+                const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
+                any |= plane.distance(at + side - 0.5) > 0;
+            }
+            return any;
+        });
+        if (all) kept.insert(samples[i]);
+    }
+    return {kept.begin(), kept.end()};
+}
+
+TEST(KeptValues, AreThoseOfVoxelsThatNoPlaneCutsAway) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> any(-1, 1);
+    for (int trial = 0; trial < 40; ++trial) {
+        Grid grid = test::grid_of({7, 5, 6}, Centering::cell);
+        grid.lookup = VolumeLookup::nearest;
+        grid.step[1] = -grid.step[1];
+        const Volume volume = test::volume_of<std::int16_t>(
+            grid, [](double x, double y, double z) { return x + 7 * y + 35 * z - 100; });
+        Clip clip;
+        for (int plane = 0; plane < 2; ++plane) {
+            const glm::dvec3 place(any(random), any(random), any(random));
+            clip.planes.push_back({grid.to_world({3 + 3 * place.x, 2 + 2 * place.y, 3}),
+                                   {any(random), any(random), trial % 2 ? any(random) : 0}});
+        }
+        if (trial % 3 == 0) clip.planes[0].normal = {0, 1, 0};
+        const auto kept = VolumeField(volume, measure_bricks(volume)).kept_values(clip);
+        ASSERT_TRUE(kept);
+        EXPECT_EQ(*kept, kept_by_search(volume, index_planes(clip, grid))) << trial;
+    }
+}
+
+// Labels 0 to 3 along x: the legend has those of which the clip keeps something.
+TEST(KeptValues, AreTheLabelsOfALegend) {
+    Grid grid = test::grid_of({4, 3, 2}, Centering::cell);
+    grid.lookup = VolumeLookup::nearest;
+    const Volume volume =
+        test::volume_of<std::uint8_t>(grid, [](double x, double, double) { return x; });
+    const auto bricks = measure_bricks(volume);
+    const VolumeField field(volume, bricks);
+    const auto listed = [&](const Clip& clip) {
+        std::vector<double> codes;
+        for (const Label& label : annotated_data(field, true, clip).labels)
+            codes.push_back(label.code);
+        return codes;
+    };
+    using Codes = std::vector<double>;
+    EXPECT_EQ(listed({}), (Codes{0, 1, 2, 3}));
+    const double edge = grid.to_world({1.5, 0, 0}).x;  // between labels 1 and 2
+    EXPECT_EQ(listed({{{{edge, 0, 0}, {1, 0, 0}}}, {}}), (Codes{2, 3}));
+    EXPECT_EQ(listed({{{{edge - 1e-3, 0, 0}, {1, 0, 0}}}, {}}), (Codes{1, 2, 3}));
+    const glm::dvec3 low = grid.to_world({0.6, -1, -1}), high = grid.to_world({1.4, 9, 9});
+    EXPECT_EQ(listed({{}, ClipBox{low, high}}), Codes{1});
+    EXPECT_EQ(listed({{{{99, 0, 0}, {1, 0, 0}}}, {}}), Codes{});
 }
 
 }  // namespace

@@ -130,6 +130,7 @@ TEST_F(WordsRun, OptionsTwiceOrUnknownAreNamed) {
     expect({"--colourmap", "greys"}, "--colourmap: no such option, did you mean \"--colormap\"?");
     expect({"--nothing-like-it"}, "--nothing-like-it: no such option (");
     expect({"w.nrrd"}, "w.nrrd: not expected here");
+    expect({"--zoom"}, "--zoom: expected a value after it");
 }
 
 TEST_F(WordsRun, OutputsOfNoKnownKindSayWhichThereAre) {

@@ -144,6 +144,8 @@ std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
         return fmt::format("{}: found {} times, expected once", text.substr(0, at),
                            text.substr(at + twice.size()));
     }
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && text.ends_with(" missing"))
+        return text.substr(0, text.find(':')) + ": expected a value after it";
     if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return text;
     for (const CLI::App* const verb : app.get_subcommands()) {
         std::set<std::string> known;
