@@ -43,7 +43,8 @@ uvec4 composited_fragment(vec4 color, ivec2 pixel, uvec4 there) {
 #ifdef OPACITY_ONLY
     return uvec4(composited_opacity(alpha, there.r), 0u, 0u, 0u);
 #else
-    vec3 separate = color.a > 0.0 ? clamp(color.rgb / color.a, 0.0, 1.0) : vec3(0.0);
+    const float above_half_codes = 1.0 + 1.0 / 2097152.0;  // compositing/codes.h
+    vec3 separate = color.a > 0.0 ? clamp(color.rgb / color.a * above_half_codes, 0.0, 1.0) : vec3(0.0);
     uvec3 codes;
     for (int channel = 0; channel < 3; ++channel)
         codes[channel] = code_nearest(double(LARGEST_CODE) * double(separate[channel]));

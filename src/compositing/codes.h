@@ -35,6 +35,11 @@ inline ScaledValue split_scaled(double scaled) {
     return {static_cast<std::uint32_t>(whole), std::fmax(scaled - whole, 0.0)};
 }
 
+// Factor on a fragment's associated colour over its opacity, before it becomes a code. Colours of
+// one digit lie half-way between two codes (.1 * 255 = 25.5), and the quotient is off by up to four
+// roundings of float32: all of a colour's fragments then go up, in shaders and on the cpu engine.
+inline constexpr float above_half_codes = 1 + 0x1p-21F;
+
 inline std::uint32_t code_nearest(double scaled) {
     return static_cast<std::uint32_t>(std::floor(scaled + 0.5));
 }

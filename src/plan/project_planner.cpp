@@ -229,17 +229,20 @@ struct ProjectPlanner {
         plan.draw_transparent = !left_out && facts.non_finite == 0;
     }
 
-    // Tells whether a compute shader of OpenGL composites codes; it finds all faces in double.
-    bool computes_codes() const {
+    bool is_large() const { return facts.tets >= fewest_plain_tets; }
+
+    // Tells whether the program composites codes. Every face is then found in double, as float32
+    // may be off by 2e-3 of a segment (float_tolerance), and both engines show the same codes.
+    bool composites_codes() const {
         const bool dithered =
             is_fixed_point(*scene.target) && settings.dither == ProjectDither::after_blend;
-        return !capabilities.cpu && (scene.target == Target::emulated || dithered);
+        return scene.target == Target::emulated || dithered;
     }
 
     bool choose_precision(bool fan) {
-        if (computes_codes()) return fan || facts.tets >= fewest_plain_tets;
+        if (composites_codes()) return fan;
         return omissions.leave_out(
-                   !fan && facts.tets >= fewest_plain_tets, "double_precision",
+                   !fan && is_large(), "double_precision",
                    fmt::format("{} tets: only where a face is seen nearly edge-on are faces "
                                "found in double",
                                facts.tets)) ||
@@ -515,7 +518,8 @@ struct ProjectPlanner {
             plan.range = drawn;
             plan.source = SegmentSource::parts;
             plan.trial_error = error_of(plan.single_color ? exact_integral() : integral_of_parts());
-        } else if (plan.plain && !scene.lighting && try_cut_table()) {
+        } else if ((plan.plain || (composites_codes() && is_large())) && !scene.lighting &&
+                   try_cut_table()) {
             plan.source = SegmentSource::cut_table;
         } else {
             plan.source = SegmentSource::analytic;

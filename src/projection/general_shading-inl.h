@@ -45,7 +45,7 @@ LAMINA_INLINE void put_codes(const TargetBlend& target, const Fragment& fragment
                              Pixels& there) {
     const FloatMask seen = fragment.alpha > 0;
     const auto code = [&](Float color) LAMINA_LAMBDA {
-        return color_code(target, zero_unless(seen, color / fragment.alpha));
+        return color_code(target, zero_unless(seen, color / fragment.alpha * above_half_codes));
     };
     const Float alpha = alpha_code(target, Float64(fragment.alpha), random);
     composite_codes(target,
