@@ -24,10 +24,9 @@ vec4 tet_color() {
         lengths = per_scalar * vec3(abs(front - segment.front), abs(back - front), abs(segment.back - back));
     }
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < 3; ++i) {
-        if (i != 1 && !(lengths[i] > 0.0)) continue;
+    int last = lengths[2] > 0.0 ? 2 : 1;
+    for (int i = lengths[0] > 0.0 ? 0 : 1; i <= last; ++i)
         sum += (1.0 - sum.a) * color_within(i < 2 ? front : back, i > 0 ? back : front, lengths[i]);
-    }
     return sum;
 #else
     return color_within(front, back, segment.world_length);
