@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "mesh_files/mesh_file.h"
+#include "volume_files/foreign_files.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
@@ -78,12 +79,22 @@ std::string text_of(const NamesByKind& contents) {
     return texts.empty() ? "nothing in it" : fmt::format("{}", fmt::join(texts, ", "));
 }
 
+// Returns the first of a folder's files if all have one extension; else nothing.
+Path only_kind(const Path& folder) {
+    const std::vector<Path> entries = entries_of(folder, most_looked_at);
+    const auto differ = [&](const Path& entry) {
+        return entry.extension() != entries[0].extension();
+    };
+    return entries.empty() || std::ranges::any_of(entries, differ) ? Path() : entries[0];
+}
+
 }  // namespace
 
 void expect_no_folder(const Path& path) {
     std::error_code absent;
     if (!std::filesystem::is_directory(path, absent)) return;
     const NamesByKind contents = contents_of(path);
+    if (const Path first = only_kind(path); !first.empty()) expect_no_foreign_file(first);
     const bool has_data = contents.size() > contents.count("");
     fail("{}: found a folder with {}, expected {}", path.string(), text_of(contents),
          has_data ? "the name of one of these" : "a volume: " + volume_format_names());

@@ -140,7 +140,13 @@ std::vector<std::filesystem::path> files_in_folder(const std::filesystem::path& 
     return files;
 }
 
-void warn_of_series(const std::string& name, const std::vector<std::filesystem::path>& files) {
+void warn_of_series(const std::string& name, const char* kind,
+                    const std::vector<std::filesystem::path>& files) {
+    const std::size_t all = files_in_folder(name).size();  // 0 for a file
+    if (all > files.size()) {
+        warn(fmt::format("{}: {} of {} files are no {}, and not used", name, all - files.size(),
+                         all, kind));
+    }
     if (files.size() < 2) return;
     std::map<std::string, std::vector<NameParts>> series;
     for (const auto& file : files) {

@@ -46,7 +46,9 @@ std::vector<std::filesystem::path> files_in_folder(const std::filesystem::path& 
 
 // Checks that files, in the order of files_in_folder(), are one series whose names differ in one
 // number. Warns of numbers that are missing between the first and the last, and of names without
-// numbers. Throws Error if there are several series, or if two numbers change. `name`: the folder.
-void warn_of_series(const std::string& name, const std::vector<std::filesystem::path>& files);
+// numbers, and of files in the folder that are no `kind` ("TIFF"). Throws Error if there are
+// several series, or if two numbers change. `name`: the folder.
+void warn_of_series(const std::string& name, const char* kind,
+                    const std::vector<std::filesystem::path>& files);
 
 }  // namespace lamina

@@ -30,6 +30,7 @@ class OmeZarrReader {
             taken_of(name_, "level", wanted, static_cast<std::int64_t>(datasets.size()));
         ZarrImage image;
         image.axes = read_axes();
+        image.has_own_axes = image_.contains("axes");
         image.steps.assign(image.axes.size(), 1);
         image.firsts.assign(image.axes.size(), 0);
         for (const Json& dataset : datasets) image.levels.push_back(folder_of(dataset));

@@ -312,7 +312,7 @@ Volume open_pictures(const Path& path, const VolumeRequest& request, const Volum
     const std::string name = path.string();
     const std::vector<Path> files = files_of_pictures(path);
     if (files.empty()) fail("{}: found no PNG or JPEG file in the folder", name);
-    warn_of_series(name, files);
+    warn_of_series(name, "PNG or JPEG", files);
     PictureNotes notes;
     const PictureKind kind = kind_of_pictures(files, notes);
     const StoredAxis channel = taken_axis(name, "channel", request.channel, kind.channels);

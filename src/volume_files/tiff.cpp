@@ -182,7 +182,7 @@ class TiffStack {
     }
 
     void take_pages(const TiffBeginning& first) {
-        warn_of_series(name_, files_);
+        warn_of_series(name_, "TIFF", files_);
         found_ = tiff_description(first);
         std::int64_t reduced = 0;
         for (std::size_t i = 0; i < files_.size(); ++i) {

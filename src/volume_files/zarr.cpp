@@ -226,6 +226,18 @@ Volume volume_of(ZarrChunks chunks, const Grid& grid, const VolumeUse& use) {
                         use.lookup);
 }
 
+// Leaves an image that does not name its axes those that its array has, and says so.
+void fit_axes(ZarrImage& image, const ZarrArray& array) {
+    const std::size_t rank = array.shape.size();
+    if (image.has_own_axes || rank >= image.axes.size()) return;
+    const auto surplus = static_cast<std::ptrdiff_t>(image.axes.size() - rank);
+    image.axes.erase(image.axes.begin(), image.axes.begin() + surplus);
+    image.steps.erase(image.steps.begin(), image.steps.begin() + surplus);
+    image.firsts.erase(image.firsts.begin(), image.firsts.begin() + surplus);
+    warn(fmt::format("{}: the image does not name its {} axes: the last of t, c, z, y, x are taken",
+                     array.folder.string(), rank));
+}
+
 }  // namespace
 
 std::shared_ptr<void> zarr_samples(const ZarrChunks& chunks) {
@@ -282,8 +294,9 @@ Volume open_zarr(const Path& path, const VolumeRequest& request, const VolumeUse
     const ZarrStore store(path);
     const Path root = store.root(path.has_filename() ? path : path.parent_path());
     VolumeContents contents;
-    const ZarrImage image = image_in(store, root, request, contents.arrays);
+    ZarrImage image = image_in(store, root, request, contents.arrays);
     const ZarrArray array = read_zarr_array(store, image.folder);
+    fit_axes(image, array);
     if (!image.axes.empty() && image.axes.size() != array.shape.size()) {
         fail("{}: shape: found {} axes, expected {}, as the image has", array.header_name(),
              array.shape.size(), image.axes.size());

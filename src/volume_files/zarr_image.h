@@ -32,6 +32,7 @@ struct ZarrImage {
     std::vector<ArrayAxis> axes;  // in the array's order, without sizes; empty: a plain array
     // Along each axis: the world's length of an index, and the place of index 0.
     std::vector<double> steps, firsts;
+    bool has_own_axes = true;  // else they are t, c, z, y, x, of which an array may have the last
     std::vector<std::string> channels;  // names, as many as the image gives
     std::vector<std::filesystem::path> levels;
     bool is_labels = false;     // its samples are labels

@@ -40,6 +40,16 @@ TEST_F(VolumeFiles, AreRefusedIfTheirFormatIsUnknown) {
     expect_error([&] { read_volume(folder() / "none.raw"); }, {"none.raw", "no such file"});
 }
 
+TEST_F(VolumeFiles, AreRefusedByTheKindOfAllFilesInAFolder) {
+    std::filesystem::create_directories(folder() / "f");
+    write("f/a1.bmp", "BM1");
+    write("f/a2.bmp", "BM2");
+    expect_error([&] { read_volume(folder() / "f"); },
+                 {"f/a1.bmp: found a picture, which is not read", "PNG or TIFF"});
+    write("f/notes.any", "text");
+    expect_error([&] { read_volume(folder() / "f"); }, {"f: found a folder with unknown kinds"});
+}
+
 TEST_F(VolumeFiles, AreNamedIfAFolderOfThemIsGiven) {
     const std::string nrrd = small_header + "\n\x07\x09";
     for (const char* name : {"a.nrrd", "b.nrrd", "c.nrrd", "d.nrrd", "notes.txt"})

@@ -123,7 +123,7 @@ TEST_F(ZarrErrors, NameBadKeysOfImages) {
     bad({{"axes", zyx}, {"datasets", {{{"path", "none"}}}}}, {"none"});
     bad({{"axes", {"z", "y", "q"}}, {"datasets", {{{"path", "a.zarr"}}}}}, {"axes", "\"q\""});
     bad({{"axes", {"z", "y", "y"}}, {"datasets", {{{"path", "a.zarr"}}}}}, {"two \"y\""});
-    bad({{"datasets", {{{"path", "a.zarr"}}}}}, {"found 3 axes, expected 5"});
+    bad({{"axes", {"y", "x"}}, {"datasets", {{{"path", "a.zarr"}}}}}, {"found 3 axes, expected 2"});
     const auto transformed = [&](const json& step) {
         return json{{"axes", zyx},
                     {"datasets",

@@ -342,6 +342,9 @@ def folders(cases, tifffile):
     folder("cases", [("s1", pages[0]), ("s2", pages[1]), ("s3", pages[2])])
     os.rename(cases.path("cases/s2.tif"), cases.path("cases/s2.TIF"))
     cases.add("cases", pages[:3])
+    open(cases.path("cases/notes.txt"), "w").close()
+    open(cases.path("cases/s4.png"), "wb").write(b"\x89PNG")
+    cases.add("cases", pages[:3], warnings=["2 of 5 files are no TIFF, and not used"])
     folder("letters", [("a", pages[0]), ("b", pages[1])])
     cases.add("letters", pages[:2], warnings=["alphabetical order"])
     # A stack in each file: times.
