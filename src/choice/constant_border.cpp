@@ -15,13 +15,16 @@ namespace {
 // Layers are no border if at least this share of the samples behind them has their value: then they
 // are the empty space around a thing.
 constexpr double most_alike = .5;
+// Share of the range by which a thing is higher than the empty space around it; air in a border of
+// a lower value is not.
+constexpr double least_rise = .25;
 constexpr std::int64_t most_share = 3;  // at least 1 / most_share of an axis is inside
 
 // Takes layers away from the sides of a volume.
 template <typename T>
 class Peeling {
   public:
-    Peeling(const Volume& volume, double lowest) : volume_(volume), lowest_(lowest) {}
+    Peeling(const Volume& volume, const ValueRange& range) : volume_(volume), range_(range) {}
 
     // Sides behind which most samples are alike are left as they are, and the others are sought
     // again: they may reach farther then.
@@ -134,7 +137,6 @@ class Peeling {
         const std::int64_t most = found_.inside.size[axis] - size / most_share - 1;
         if (most <= 0 || left_[axis][upper ? 1 : 0]) return false;
         const T value = first_of(layers(axis, upper, 0, 1));
-        if (static_cast<double>(value) == lowest_) return false;
         const std::int64_t alike = width(axis, upper, value, most);
         if (alike == 0) return false;
         found_.layers.push_back(
@@ -149,24 +151,27 @@ class Peeling {
         for (BorderLayers& one : found_.layers) {
             const SampleBox behind = layers(one.axis, one.upper, 0, 1);
             one.behind = median(behind, one.value);
-            if (share(behind, static_cast<T>(one.value)) < most_alike) continue;
+            const bool space =
+                one.value == range_.lo &&
+                one.behind / 2 - range_.lo / 2 > least_rise * (range_.hi / 2 - range_.lo / 2);
+            if (!space && share(behind, static_cast<T>(one.value)) < most_alike) continue;
             any = left_[one.axis][one.upper ? 1 : 0] = true;
         }
         return any;
     }
 
     const Volume& volume_;
-    const double lowest_;
+    const ValueRange range_;
     std::array<std::array<bool, 2>, 3> left_{};  // by axis and side
     ConstantBorder found_;
 };
 
 }  // namespace
 
-std::optional<ConstantBorder> find_constant_border(const Volume& volume, double lowest) {
+std::optional<ConstantBorder> find_constant_border(const Volume& volume, const ValueRange& range) {
     if (volume.grid().sample_count() > large_volume) return std::nullopt;
     ConstantBorder found = with_sample_type(
-        volume.type(), [&](auto zero) { return Peeling<decltype(zero)>(volume, lowest).peel(); });
+        volume.type(), [&](auto zero) { return Peeling<decltype(zero)>(volume, range).peel(); });
     if (found.layers.empty()) return std::nullopt;
     return found;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lamina/volume.h"
+#include "volume/min_max_bricks.h"
 #include "volume/sample_source.h"
 #include "volume/volume_store.h"
 
@@ -31,10 +32,10 @@ struct ConstantBorder {
 };
 
 // Finds layers of one value at the sides of a volume, behind which most samples have others: up to
-// two thirds of the samples along an axis. Layers of the lowest value are no border: they are the
-// empty space around a thing, or padding that is transparent anyway. Nothing in volumes that are
-// large (large_volume), because they may stay in their files.
-std::optional<ConstantBorder> find_constant_border(const Volume& volume, double lowest);
+// two thirds of the samples along an axis. Layers of the lowest value are no border if what lies
+// behind them is much higher: they are the empty space around a thing. Nothing in volumes that are
+// large (large_volume), because they may stay in their files. `range`: of the finite samples.
+std::optional<ConstantBorder> find_constant_border(const Volume& volume, const ValueRange& range);
 
 // Calls visitor(a SampleWindow<T> with the samples of a box), and returns its result. A window in
 // memory holds the whole volume; of a volume that stays in its files, the box is read. T: the type

@@ -454,7 +454,7 @@ ValueDistribution VolumeField::distribution() const {
 
 std::optional<BorderlessField> VolumeField::without_border() const {
     if (volume_.grid().lookup == VolumeLookup::nearest) return std::nullopt;
-    std::optional<ConstantBorder> border = find_constant_border(volume_, bricks_.whole.lo);
+    std::optional<ConstantBorder> border = find_constant_border(volume_, bricks_.whole);
     if (!border) return std::nullopt;
     BorderlessField result;
     for (const BorderLayers& layers : border->layers) {

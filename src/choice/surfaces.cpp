@@ -70,9 +70,6 @@ constexpr double outline_opacity = .5;
 // Opacity of a mesh that is shown as a body, over this share of the data's diagonal: walls of
 // sheets are thin.
 constexpr double body_opacity = .95, body_length = 1e-3;
-// A mesh is also shown as a body if its common values leave this share of its surface to others:
-// then most of what there is to see lies on it, as at the walls of a flow.
-constexpr double uncommon_surface = .15;
 constexpr int body_ranks = 24;  // values of a body's colours, each with as much of the field
 // Of data without a background, this share shows at each end of the values, behind a surface of
 // this opacity and these places among the colours.
@@ -384,6 +381,13 @@ ChosenSurfaces of_smooth_field(const Padding& padding, const CommonValues& commo
                                 hidden, shown)};
 }
 
+// Tells whether the uncommon values take more of a mesh's surface than of its volume, as at the
+// walls of a flow: then they are seen from outside.
+bool lies_on_surface(const CommonValues& common, const ValueDistribution& values,
+                     const Field& field) {
+    return field.surface_outside({common.lo, common.hi}) > 1 - values.share(common.lo, common.hi);
+}
+
 // Shows a mesh as an opaque body, whose surface is coloured by the values' ranks.
 ChosenSurfaces of_body(const ValueDistribution& values, const TransferSubject& subject) {
     const double extinction =
@@ -492,8 +496,7 @@ ChosenSurfaces choose_surfaces(const Padding& padding, bool whole_numbers,
     }
     if (halves || (is_volume && !common.background)) return of_ends(values, around);
     if (subject.field != nullptr && !is_volume &&
-        (!common.background ||
-         subject.field->surface_outside({common.lo, common.hi}) > uncommon_surface))
+        (!common.background || lies_on_surface(common, values, *subject.field)))
         return of_body(values, subject);
     return of_smooth_field(padding, common, around, subject);
 }

@@ -14,6 +14,7 @@
 #include "choice/field.h"
 #include "choice/open_scene.h"
 #include "choice/words.h"
+#include "support/stored_volume.h"
 #include "support/volume_of.h"
 
 namespace lamina {
@@ -100,15 +101,21 @@ TEST(ConstantBorder, ChangesNoTransferFunctionAndIsCutAway) {
     expect_picture_without_border<float>(flesh + .5);
 }
 
-TEST(ConstantBorder, OfTheLowestValueStaysAndIsTransparent) {
-    for (const double value : {-2000, 0}) {
+// Nothing shows between such a border and the air behind it.
+TEST(ConstantBorder, BelowTheAirStaysUnseen) {
+    const Choices bare = chosen_for(bordered<std::int16_t>(0, {}));
+    for (const double value : {-10, 0}) {
         for (const std::int64_t width : widths) {
             const Scene found = chosen_for(bordered<std::int16_t>(value, Widths::all(width))).scene;
             EXPECT_TRUE(found.clip.keeps_all()) << value;
-            EXPECT_TRUE(found.transfer_function->transparent(value, air)) << value;
-            EXPECT_GT(found.transfer_function->at(bone).extinction, 0) << value;
+            EXPECT_EQ(found.transfer_function, bare.scene.transfer_function) << value;
         }
     }
+    // Farther below, it is padding.
+    const Scene far = chosen_for(bordered<std::int16_t>(-2000, Widths::all(5))).scene;
+    EXPECT_TRUE(far.clip.keeps_all());
+    EXPECT_TRUE(far.transfer_function->transparent(-2000, air));
+    EXPECT_GT(far.transfer_function->at(bone).extinction, 0);
 }
 
 TEST(ConstantBorder, IsFoundOnOneSideAlone) {
@@ -125,6 +132,19 @@ TEST(ConstantBorder, IsFoundOnOneSideAlone) {
             EXPECT_EQ(glm::dot(plane.point, normal), after ? 1 - edge : 0);
         }
     }
+}
+
+TEST(ConstantBorder, IsTheSameOfAVolumeInItsFiles) {
+    const Volume volume = bordered<std::int16_t>(bone, {{2, 0, 3}, {0, 4, 1}});
+    const auto here = find_constant_border(volume, {0, 250});
+    const auto there = find_constant_border(test::stored(volume), {0, 250});
+    ASSERT_TRUE(here && there);
+    EXPECT_EQ(here->inside.first, (std::array<std::int64_t, 3>{2, 0, 3}));
+    EXPECT_EQ(here->inside.size, (std::array<std::int64_t, 3>{edge, edge, edge}));
+    EXPECT_EQ(there->inside.first, here->inside.first);
+    EXPECT_EQ(there->inside.size, here->inside.size);
+    for (std::size_t i = 0; i < here->layers.size(); ++i)
+        EXPECT_EQ(there->layers[i].behind, here->layers[i].behind);
 }
 
 TEST(ConstantBorder, IsSaidAndKeptIfAsked) {
@@ -152,21 +172,21 @@ TEST(ConstantBorder, IsSaidAndKeptIfAsked) {
 
 // The empty space around a thing is the lowest value, or that of what lies behind it.
 TEST(ConstantBorder, IsNotTheAirAroundAThing) {
-    const auto border_around = [](double value, double lowest, const auto& is_inside) {
+    const auto border_around = [](double value, const auto& is_inside) {
         const Volume volume = test::volume_of<std::int16_t>(
             test::grid_of({30, 30, 30}, Centering::node), [&](double i, double j, double k) {
                 const glm::dvec3 from_middle = glm::dvec3(i, j, k) - 14.5;
                 return is_inside(from_middle) ? 200 + static_cast<int>(i) % 3 : value;
             });
-        return find_constant_border(volume, lowest).has_value();
+        return find_constant_border(volume, measure_bricks(volume).whole).has_value();
     };
     const auto ball = [](const glm::dvec3& at) { return glm::length(at) < 9; };
     const auto box = [](const glm::dvec3& at) {
         return std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < 9;
     };
-    EXPECT_FALSE(border_around(0, 0, box));
-    EXPECT_FALSE(border_around(700, 200, ball));
-    EXPECT_TRUE(border_around(700, 200, box));
+    EXPECT_FALSE(border_around(0, box));
+    EXPECT_FALSE(border_around(700, ball));
+    EXPECT_TRUE(border_around(700, box));
 }
 
 }  // namespace

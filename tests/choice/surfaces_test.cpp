@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <random>
 
 #include "choice/choose.h"
@@ -200,7 +201,7 @@ TEST(Surfaces, OfADistanceIsThatAtZero) {
 }
 
 // A mesh is a body if its values have no background, or if those that are uncommon lie on its
-// surface; not if they are inside.
+// surface; not if they are inside, or run through it.
 TEST(Surfaces, OfAMeshAreThoseOfABodyIfTheyShowMore) {
     const auto reason_for = [](const auto& value) {
         const SceneMesh mesh = scene_mesh(Scene(), test::kuhn_box({16, 16, 16}, value));
@@ -219,6 +220,10 @@ TEST(Surfaces, OfAMeshAreThoseOfABodyIfTheyShowMore) {
         return std::exp(-std::pow(glm::length(p - glm::dvec3(8)) / 2.5, 2));
     });
     EXPECT_FALSE(is_body(inside)) << inside;
+    const auto through = reason_for([](const glm::dvec3& p) {
+        return std::exp(-std::pow(glm::length(glm::dvec2(p.x - 8, p.y - 8)) / 2.5, 2));
+    });
+    EXPECT_FALSE(is_body(through)) << through;
 }
 
 TEST(AutomaticLight, ShowsSurfacesButNotNoise) {

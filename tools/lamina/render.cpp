@@ -255,7 +255,9 @@ void run(const RenderOptions& options, const RenderExtras& extras) {
     const Plan plan = pipeline.plan();
     pipeline.warn_of_plan();
     const std::string explanation = pipeline.explanation();
-    if (options.explain) print_explanation(options, explanation + pipeline.light_cost());
+    // Without a picture, nothing would be ready to draw small ones with.
+    if (options.explain)
+        print_explanation(options, explanation + (output ? pipeline.light_cost() : ""));
     if (!output) return;
     RunStatistics statistics{.picture = pipeline.statistics()};
     const std::string written = output->draw(
