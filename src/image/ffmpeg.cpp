@@ -87,9 +87,8 @@ std::filesystem::path require_ffmpeg(const std::string& output, const std::strin
     std::istringstream words(text_in(listed));
     for (std::string word; words >> word;)
         if (word == encoder) return *program;
-    fail(
-        "{}: {} has no encoder {}: expected an ffmpeg with it, or a film.apng, which needs none",
-        output, program->string(), encoder);
+    fail("{}: {} has no encoder {}: expected an ffmpeg with it, or a film.apng, which needs none",
+         output, program->string(), encoder);
 }
 
 Ffmpeg::Ffmpeg(const std::filesystem::path& program, const std::vector<std::string>& arguments,
