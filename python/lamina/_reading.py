@@ -62,6 +62,8 @@ def info(file: Path, *, only_below: Path | None = None, **selection: Any) -> dic
     path, folder = pathlib.Path(file), folder_name(only_below)
     is_raw = "size" in selection or "type" in selection
     kind = "volume" if is_raw or not selection else _lamina.kind_of_file(path, folder)
+    if kind == "mesh" and set(selection) != {"time"} and selection:
+        raise Error(f"{path}: found {', '.join(sorted(selection))}, expected time: all arrays of a mesh are listed")
     scene = _scene_of(path.absolute(), kind, selection) if selection else ""
     text, warnings = _lamina.describe_file(path.absolute(), scene, folder)
     for warning in warnings:

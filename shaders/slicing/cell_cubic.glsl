@@ -132,7 +132,7 @@ CellScalar cell_scalar(ivec3 cell, vec3 place, vec3 change, out bool transparent
 #endif
     scalar.cubic *= code_normalisation.y;
 #ifdef STEPS
-    scalar.limits = limits_of(corners);
+    scalar.limits = transparent ? vec2(0.0) : limits_of(corners);
 #endif
     return scalar;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/output_file.h"
+#include "lamina/film.h"
 
 namespace lamina {
 
@@ -24,11 +25,11 @@ inline constexpr const char* film_suffixes = ".mp4, .webm, .gif or .apng";
 // Returns the format of a file's name, in any case, or null if it does not end as films do.
 const FilmFormat* film_format_of(const std::string& file);
 
-// What the frames of a film have in common.
+// Holds for all frames of a film.
 struct FilmLook {
     int width = 0, height = 0;  // pixels
     bool transparent = false;   // they have straight alpha
-    int rate = 25;              // frames a second
+    int rate = frames_a_second;
 };
 
 // Returns the look of a frame, the bytes of a PNG file. Throws Error if it is none.

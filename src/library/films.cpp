@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <cstdlib>
+#include <new>
+#include <tuple>
 #include <utility>
 
 #include "base/client.h"
@@ -16,13 +18,18 @@ namespace {
 // A file in memory.
 class MemoryFile : public OutputFile {
   public:
-    MemoryFile() : OutputFile("film") { stream_ = open_memstream(&bytes_, &size_); }
+    MemoryFile() : OutputFile("film") {
+        stream_ = open_memstream(&bytes_, &size_);
+        if (stream_ == nullptr) throw std::bad_alloc();
+    }
     ~MemoryFile() override {
-        if (stream_ != nullptr) std::fclose(stream_);
+        std::fclose(stream_);
         std::free(bytes_);
     }
 
-    void commit() override { std::fflush(stream_); }
+    void commit() override {
+        if (std::fflush(stream_) != 0) throw std::bad_alloc();
+    }
     std::string text() const { return {bytes_, size_}; }  // after commit()
 
   private:
@@ -49,6 +56,13 @@ void save_film(std::span<const std::string> frames, const std::filesystem::path&
              film_suffixes);
     }
     FilmLook look = look_of_png(frames.front());
+    // ffmpeg itself would scale frames of other sizes, and drop their alpha.
+    for (const std::string& frame : frames) {
+        const FilmLook other = look_of_png(frame);
+        if (std::tie(other.width, other.height, other.transparent) !=
+            std::tie(look.width, look.height, look.transparent))
+            fail("{}: its frames differ in size, or only some of them are transparent", name);
+    }
     look.rate = rate;
     for (const auto& mistake : {mistake_in_rate(*format, rate), mistake_in_look(*format, look)})
         if (mistake) fail("{}: {}", name, *mistake);

@@ -147,12 +147,12 @@ class CellIntegrator {
         const Float base(-brick.offset / brick.scale);
         CubicLanes cubic = cubic_along(corners, base, place, change);
         for (Float& c : cubic.c) c *= brick.scale;
-        if (slabs_.plan->nan_transparent) set_transparent(corners, cubic, i);
         if (slabs_.transfer->steps) {
             const RangeLanes limits = limits_of(corners, base, brick.scale);
             store(limits.lo, segments_.limits[0] + i);
             store(limits.hi, segments_.limits[1] + i);
         }
+        if (slabs_.plan->nan_transparent) set_transparent(corners, cubic, i);
         for (std::size_t power = 0; power < 4; ++power)
             store(cubic.c[power], segments_.cubic[power] + i);
     }
@@ -168,14 +168,19 @@ class CellIntegrator {
         for (int i = 0; i < 4; ++i) corners.lower[i] = corners.upper[i] = sample;
     }
 
-    // Removes segments of cells with a NaN at a corner: their length and scalar become 0.
+    // Removes segments of cells with a NaN at a corner: their length, scalar and limits become 0.
     LAMINA_INLINE void set_transparent(const Corners& corners, CubicLanes& cubic, std::size_t i) {
         Float sum(0);
         for (int corner = 0; corner < 4; ++corner)
             sum += corners.lower[corner] + corners.upper[corner];
         const FloatMask finite = sum == sum;
         for (Float& c : cubic.c) c = zero_unless(finite, c);
-        store(zero_unless(finite, load<Float>(segments_.length + i)), segments_.length + i);
+        const auto clear = [&](float* column) LAMINA_LAMBDA {
+            store(zero_unless(finite, load<Float>(column + i)), column + i);
+        };
+        clear(segments_.length);
+        if (!slabs_.transfer->steps) return;
+        for (float* const limit : segments_.limits) clear(limit);
     }
 
     // Integrates segments by one rule. Those that leave their interval of the transfer function,

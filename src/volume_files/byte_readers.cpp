@@ -240,22 +240,27 @@ class HexReader final : public ByteReader {
     }
 
     std::vector<std::string> surplus() override {
-        std::uint64_t digits = 0;
-        while (digits < 2 * most_counted_surplus && digit() >= 0) ++digits;
-        if (digits == 0) return {};
-        return {fmt::format("{} bytes of hex data more", (digits + 1) / 2)};
+        std::uint64_t letters = 0;
+        while (letters < 2 * most_counted_surplus && letter() != EOF) ++letters;
+        if (letters == 0) return {};
+        return {fmt::format("{} letters of hex data more", letters)};
     }
 
   private:
     // Returns the value of the next digit; -1 at the end of the file.
     int digit() {
-        int letter = std::fgetc(file_.get());
-        while (std::isspace(letter) != 0) letter = std::fgetc(file_.get());
-        if (letter == EOF) return -1;
-        if (std::isxdigit(letter) == 0)
-            fail("{}: damaged hex data: found byte {}, expected a digit from 0 to f", name_,
-                 letter);
-        return letter <= '9' ? letter - '0' : std::tolower(letter) - 'a' + 10;
+        const int found = letter();
+        if (found == EOF) return -1;
+        if (std::isxdigit(found) == 0)
+            fail("{}: damaged hex data: found byte {}, expected a digit from 0 to f", name_, found);
+        return found <= '9' ? found - '0' : std::tolower(found) - 'a' + 10;
+    }
+
+    // Returns the next byte that is no space; EOF at the end of the file.
+    int letter() {
+        int found = std::fgetc(file_.get());
+        while (std::isspace(found) != 0) found = std::fgetc(file_.get());
+        return found;
     }
 
     OpenedFile file_;

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
+#include <span>
 
 #include "base/error.h"
 #include "volume_files/hdf5_filters.h"
@@ -188,17 +190,36 @@ Hdf5Array::Hdf5Array(Hdf5Handle set, std::string name)
     memory_type_ = is_byte_of_bits(stored.id()) ? H5T_NATIVE_B8 : memory_type(type_);
 }
 
+// Returns the number of bytes of a chunk as the file stores it; 0 if there are no chunks.
+std::size_t Hdf5Array::stored_chunk_bytes() const {
+    const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
+    const Hdf5Handle type(H5Dget_type(set_.id()), H5Tclose);
+    hsize_t edges[most_rank] = {};
+    const int rank = H5Pget_chunk(properties.id(), most_rank, edges);
+    std::size_t bytes = rank > 0 ? H5Tget_size(type.id()) : 0;
+    for (int axis = 0; axis < rank; ++axis) bytes *= static_cast<std::size_t>(edges[axis]);
+    return bytes;
+}
+
 // Throws Error if the data set is packed by a filter that this machine's library does not have.
 void Hdf5Array::expect_filters() const {
     const Hdf5Handle properties(H5Dget_create_plist(set_.id()), H5Pclose);
     const int count = properties.valid() ? H5Pget_nfilters(properties.id()) : 0;
     for (int i = 0; i < count; ++i) {
         unsigned flags = 0, config = 0;
-        std::size_t values = 0;
+        unsigned values[4] = {};
+        std::size_t value_count = std::size(values);
         char word[64] = {};
         const H5Z_filter_t filter =
-            H5Pget_filter2(properties.id(), static_cast<unsigned>(i), &flags, &values, nullptr,
+            H5Pget_filter2(properties.id(), static_cast<unsigned>(i), &flags, &value_count, values,
                            sizeof word, word, &config);
+        // The library reads a whole chunk from what a filter gives, whatever the filter says.
+        const auto unpacked = lzf_chunk_bytes(
+            filter, std::span(values).first(std::min(value_count, std::size(values))));
+        if (unpacked && *unpacked != stored_chunk_bytes()) {
+            fail("{}: damaged filter LZF: found chunks of {} bytes, expected {}", name_, *unpacked,
+                 stored_chunk_bytes());
+        }
         if (filter >= 0 && H5Zfilter_avail(filter) <= 0) {
             const std::string known = filter_name(filter);
             fail(

@@ -92,6 +92,7 @@ class Hdf5Array {
               void* to) const;
 
   private:
+    std::size_t stored_chunk_bytes() const;
     void expect_filters() const;
 
     std::string name_;

@@ -51,7 +51,7 @@ std::size_t unpack_lzf(std::span<const std::uint8_t> from, std::span<std::uint8_
     return out;
 }
 
-// Unpacks a chunk (H5Z_func_t). h5py's third value is the size of a chunk.
+// Unpacks a chunk (H5Z_func_t). h5py's third value is the size of a chunk (lzf_chunk_bytes()).
 std::size_t read_lzf(unsigned flags, std::size_t count, const unsigned values[], std::size_t bytes,
                      std::size_t* size, void** buffer) {
     if ((flags & H5Z_FLAG_REVERSE) == 0 || count < 3) return 0;
@@ -61,8 +61,10 @@ std::size_t read_lzf(unsigned flags, std::size_t count, const unsigned values[],
     if (memory == nullptr) return 0;
     const std::size_t found = unpack_lzf({static_cast<const std::uint8_t*>(*buffer), bytes},
                                          {static_cast<std::uint8_t*>(memory), unpacked});
-    H5free_memory(found == 0 ? memory : *buffer);
-    if (found == 0) return 0;
+    const bool is_whole =
+        found == unpacked;  // the rest would be memory that nothing was written to
+    H5free_memory(is_whole ? *buffer : memory);
+    if (!is_whole) return 0;
     *buffer = memory;
     *size = unpacked;
     return found;
@@ -74,6 +76,11 @@ void add_lzf_filter() {
     if (H5Zfilter_avail(lzf) > 0) return;
     constexpr H5Z_class2_t filter{H5Z_CLASS_T_VERS, lzf, 0, 1, "LZF", nullptr, nullptr, read_lzf};
     H5Zregister(&filter);
+}
+
+std::optional<std::size_t> lzf_chunk_bytes(H5Z_filter_t number, std::span<const unsigned> values) {
+    if (number != lzf) return {};
+    return values.size() < 3 ? 0 : values[2];
 }
 
 std::string filter_name(H5Z_filter_t number) {

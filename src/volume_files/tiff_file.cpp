@@ -89,9 +89,9 @@ ValueType TiffPage::type(const std::string& file) const {
                              : format > SAMPLEFORMAT_VOID  ? "complex numbers"
                                                            : "integers";
     fail(
-        "{}: page {}: found samples that are {} of {} bits, expected integers of up to 32 or of 64 "
-        "bits, or floats of 16, 32 or 64",
-        file, number + 1, kind, bits);
+        "{}: page {}: found samples that are {}{} of {} bits, expected integers of 8, 16, 32 or 64 "
+        "bits, unsigned ones of 1 to 31 bits but 24, or floats of 16, 32 or 64",
+        file, number + 1, format == SAMPLEFORMAT_INT ? "signed " : "", kind, bits);
 }
 
 TiffFile::TiffFile(const std::filesystem::path& path)

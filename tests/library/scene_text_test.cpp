@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <fstream>
 
 #include "lamina/mesh.h"
 #include "lamina/session.h"
@@ -92,6 +93,15 @@ TEST(DataFiles, ComeBackBitForBit) {
     EXPECT_EQ(load_mesh_data(folder.path() / "a.vtu").points, made.mesh.points);
     expect_error([&] { save_volume(volume, folder.path() / "a.vti"); }, {"a.vti", ".nrrd"});
     expect_error([&] { save_mesh(made.mesh, folder.path() / "a.stl"); }, {"a.stl", ".vtu"});
+}
+
+TEST(DataFiles, AreToldFromScenesByTheirBeginning) {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "scene.data") << " {\"version\": 1}";
+    EXPECT_EQ(kind_of_file(folder.path() / "scene.data"), FileKind::scene);
+    std::ofstream(folder.path() / "samples.data") << "samples";
+    expect_error([&] { kind_of_file(folder.path() / "samples.data"); },
+                 {"samples.data", "found samples without a header", "--raw"});
 }
 
 TEST(MeshMaking, StopsWhenAsked) {

@@ -273,6 +273,8 @@ def test_info_is_that_of_the_command_line(program, tmp_path):
     assert named == said("labels.seg.nrrd") and named["labels"][1]["name"] == "liver"
     assert lamina.info(tmp_path / "a.bin", size=(2, 2, 2), type="uint8") == said("a.bin", "--raw", "2,2,2,uint8")
     steps = lamina.info(tmp_path / "two.pvd", time=1)
+    with pytest.raises(lamina.Error, match="found scalar, expected time"):
+        lamina.info(tmp_path / "two.pvd", scalar="T")
     assert steps == said("two.pvd", "--set", "mesh.time=1") and steps["times"] == ["0.5", "2"]
     (tmp_path / "s.json").write_text("{}")
     with pytest.raises(lamina.Error, match="s.json: holds a scene, expected a volume or a mesh"):

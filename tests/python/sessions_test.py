@@ -79,6 +79,12 @@ def test_a_turntable_moves(session, tmp_path):
     assert lamina.compare(tmp_path / "a.png", tmp_path / "first.png").linf == 0
 
 
+def shown_by(film):
+    """The time and the checksum of each decoded frame."""
+    done = subprocess.run(["ffmpeg", "-v", "error", "-i", film, "-f", "framemd5", "-"], check=True, capture_output=True)
+    return done.stdout
+
+
 def test_films_are_those_of_the_command_line(blob, function, program, tmp_path):
     session = lamina.Session(blob, function, size=(48, 36), context="cpu", annotations={"title": "T"})
     views = session.turntable(4)
@@ -91,9 +97,11 @@ def test_films_are_those_of_the_command_line(blob, function, program, tmp_path):
         subprocess.run([program, "render", tmp_path / "scene.json", "-o", tmp_path / f"c{name}", "--turntable", "4",
                         "--context", "cpu", "--quiet", *options], check=True)
         views.save(tmp_path / name, **({"fps": 10} if options else {}), progress=lambda activity, share: heard.append(activity))
-        assert (tmp_path / name).read_bytes()[:4] == (tmp_path / f"c{name}").read_bytes()[:4]
-    # The frames are the same, bit for bit; other films have the same encoder's marks and times in them.
-    assert (tmp_path / "a.apng").read_bytes() == (tmp_path / "ca.apng").read_bytes()
+        # An encoder's marks of time may differ in a file, but not what it shows, and when.
+        if name == "a.apng":
+            assert (tmp_path / name).read_bytes() == (tmp_path / f"c{name}").read_bytes()
+        else:
+            assert shown_by(tmp_path / name) == shown_by(tmp_path / f"c{name}")
     assert len(films) == 1 or "encoding frames" in heard
     lamina.save_film(list(views), tmp_path / "b.apng")
     assert (tmp_path / "b.apng").read_bytes() == (tmp_path / "a.apng").read_bytes()
@@ -106,6 +114,7 @@ def test_films_that_cannot_be_are_refused(session, tmp_path):
                                          ([], "a.apng", 25, "no frames"), ([picture], "a.apng", 0, "0 frames a second"),
                                          ([picture], "a.gif", 60, "at most 50"), ([clear], "a.mp4", 25, "no straight alpha"),
                                          ([picture, lamina.render(picture.scene, size=(10, 8))], "a.apng", 25, "differ in size"),
+                                         ([picture, lamina.render(picture.scene, size=(10, 8))], "a.gif", 25, "differ in size"),
                                          ([picture], "none/a.apng", 25, "cannot write")):
         with pytest.raises(lamina.Error, match=message):
             lamina.save_film(pictures, tmp_path / name, fps=fps)

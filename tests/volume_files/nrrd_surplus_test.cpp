@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files with more data than the header promises are read, and one warning counts the bytes that are
 // not used.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "nrrd_files.h"
@@ -70,6 +71,13 @@ TEST_F(NrrdSurplus, IsReportedForRawData) {
         warnings_of(write("a.nhdr", surplus_header("raw", "data file: data.raw\n")));
     ASSERT_EQ(warnings.size(), 1u);
     expect_says(warnings[0], {"data.raw: found 2 bytes more"});
+}
+
+TEST_F(NrrdSurplus, IsReportedForHexData) {
+    std::string hex;
+    for (const char sample : samples) hex += fmt::format("{:02x}", sample);
+    EXPECT_TRUE(warnings_of(write("a.nrrd", surplus_header("hex") + hex + "\n")).empty());
+    expect_warning(surplus_header("hex") + hex + "0a\n\x1a", {"3 letters of hex data more"});
 }
 
 TEST_F(NrrdSurplus, IsReportedForPackedData) {

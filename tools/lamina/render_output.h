@@ -14,6 +14,7 @@
 
 #include "base/output_file.h"
 #include "data_series.h"
+#include "lamina/film.h"
 #include "lamina/image.h"
 #include "output_files.h"
 #include "render/pipeline.h"
@@ -68,7 +69,7 @@ struct OutputOptions {
     bool force = false;               // --force
 
     bool piped() const;
-    int rate() const { return fps.value_or(25); }  // frames a second of a film
+    int rate() const { return fps.value_or(frames_a_second); }  // of a film
     // Returns true if the pictures' file names are numbered: there is one for each of several.
     bool is_series() const { return views > 0 || time || !path.empty(); }
     void check() const;  // throws UsageError if options contradict one another

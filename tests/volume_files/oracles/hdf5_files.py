@@ -167,6 +167,18 @@ def labels(h5py, cases, write, add, bad):
     stored[place + 1:place + 4] = b"\xff\xff\xff"
     open(cases.path("lzf_damaged.h5"), "wb").write(stored)
     bad("lzf_damaged.h5", "lzf_damaged.h5:/v")
+    # A chunk that ends early, and a filter that promises chunks of another size.
+    with h5py.File(cases.path("lzf_short.h5"), "w") as file:
+        file.create_dataset("v", shape=SHAPE, chunks=SHAPE, dtype="<i2", compression="lzf")
+        file["v"].id.write_direct_chunk((0, 0, 0), b"\x03\1\2\3\4")
+    bad("lzf_short.h5", "lzf_short.h5:/v")
+    with h5py.File(cases.path("lzf_promise.h5"), "w") as file:
+        how = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+        how.set_chunk(SHAPE)
+        how.set_filter(32000, 0, (4, 261, 8))
+        data = h5py.h5d.create(file.id, b"v", h5py.h5t.NATIVE_INT16, h5py.h5s.create_simple(SHAPE), how)
+        data.write_direct_chunk((0, 0, 0), b"\x07" + b"x" * 8)
+    bad("lzf_promise.h5", "LZF: ")
     with h5py.File(cases.path("shuffled.h5"), "w") as file:
         how = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
         how.set_chunk(SHAPE)
