@@ -419,10 +419,11 @@ def hdf5_cases():
         case("nc_fill", "fill.nc:/v", array, [[1, 0, 0], [0, 2, 0], [0, 0, 4]])
     with h5py.File(f"{FOLDER}/empty.h5", "w") as file:
         file.create_dataset("v", shape=(1000, 1000, 1000), chunks=(100, 100, 100), dtype="f8")
-        file.create_dataset("lzf", data=samples("<u2"), compression="lzf")
+        packed = samples("<u2")
+        file.create_dataset("lzf", data=packed, compression="lzf")
         file.create_dataset("words", data=np.full((2, 2, 2), b"word"))
     bad("h5_empty", "empty.h5:/v", "no samples", "8000000000")
-    case("h5_lzf", "empty.h5:/lzf", samples("<u2"))
+    case("h5_lzf", "empty.h5:/lzf", packed)
     bad("h5_words", "empty.h5:/words", "type")
     deep = "/g" * 2000  # the library takes minutes to go through such groups
     with h5py.File(f"{FOLDER}/deep.h5", "w") as file:
