@@ -388,14 +388,16 @@ bool lies_on_surface(const CommonValues& common, const ValueDistribution& values
     return field.surface_outside({common.lo, common.hi}) > 1 - values.share(common.lo, common.hi);
 }
 
-// Shows a mesh as an opaque body, whose surface is coloured by the values' ranks.
+// Shows a mesh as an opaque body. Its surface is coloured by the mean of a value's rank, which tells
+// common values apart, and of its place in the range, which lets the highest and lowest stand out.
 ChosenSurfaces of_body(const ValueDistribution& values, const TransferSubject& subject) {
     const double extinction =
         veil_extinction(body_opacity, body_length * diagonal_of(*subject.field));
     std::vector<TransferKnot> points;
     const auto add = [&](double value, double rank) {
-        if (points.empty() || value > points.back().value)
-            points.push_back({value, {color_at(cool_to_warm, rank), extinction}});
+        if (!points.empty() && value <= points.back().value) return;
+        const double place = (value - values.lowest()) / (values.highest() - values.lowest());
+        points.push_back({value, {color_at(cool_to_warm, .5 * (rank + place)), extinction}});
     };
     add(values.lowest(), 0);
     for (int i = 1; i < body_ranks; ++i)
@@ -404,7 +406,7 @@ ChosenSurfaces of_body(const ValueDistribution& values, const TransferSubject& s
     return {
         points,
         fmt::format("the mesh is a body, whose surface shows all values from {} to {}, coloured "
-                    "by their rank",
+                    "by their rank and by their place in this range",
                     number_of(values.lowest(), values), number_of(values.highest(), values))};
 }
 
