@@ -8,7 +8,9 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <random>
+#include <utility>
 
 #include "choice/choose.h"
 #include "choice/field.h"
@@ -168,6 +170,48 @@ TEST(ConstantBorder, IsSaidAndKeptIfAsked) {
     Scene boxed = test::open_scene();
     boxed.clip.box = ClipBox{glm::dvec3(-2), glm::dvec3(30)};
     EXPECT_TRUE(chosen_for(volume, boxed).scene.clip.planes.empty());
+}
+
+// Layers of one value each are the data of a field that varies along one axis alone.
+TEST(ConstantBorder, IsNoLayerOfARamp) {
+    for (const std::size_t axis : {0, 1, 2}) {
+        for (const std::int64_t length : {2, 4, 5, 60}) {
+            for (const double thickness : {1., 5.}) {  // samples of a layer
+                Grid grid = test::grid_of({9, 9, 9}, Centering::node);
+                grid.size[axis] = length;
+                const Volume volume =
+                    test::volume_of<float>(grid, [&](double i, double j, double k) {
+                        return std::floor(std::array{i, j, k}[axis] / thickness);
+                    });
+                SCOPED_TRACE(fmt::format("axis {}, {} layers of {}", axis, length, thickness));
+                EXPECT_FALSE(find_constant_border(volume, measure_bricks(volume).whole));
+                EXPECT_FALSE(find_constant_border(test::stored(volume), {0, 60}));
+                EXPECT_TRUE(chosen_for(volume).scene.clip.keeps_all());
+            }
+        }
+    }
+}
+
+// Layers of more samples than are read at once.
+TEST(ConstantBorder, IsFoundInFilesWithoutReadingThemWhole) {
+    const Volume volume = test::volume_of<std::uint8_t>(
+        test::grid_of({2048, 1024, 4}, Centering::node),
+        [](double i, double j, double k) { return k == 0 ? 255 : static_cast<int>(i + j) % 100; });
+    auto source = std::make_unique<test::SourceInMemory>(volume);
+    std::int64_t largest = 0;
+    source->before_read = [&](const SampleBox& box) { largest = std::max(largest, box.count()); };
+    const Volume in_files(
+        volume.grid(), volume.type(),
+        std::make_shared<const VolumeStore>(volume.grid(), volume.type(), std::move(source)));
+    const auto here = find_constant_border(volume, {0, 255});
+    const auto there = find_constant_border(in_files, {0, 255});
+    ASSERT_TRUE(here && there);
+    ASSERT_EQ(here->layers.size(), 1u);
+    ASSERT_EQ(there->layers.size(), 1u);
+    EXPECT_EQ(there->inside.size, (std::array<std::int64_t, 3>{2048, 1024, 3}));
+    EXPECT_EQ(there->layers[0].behind, here->layers[0].behind);
+    EXPECT_NEAR(there->layers[0].behind, 50, 1);  // the median of 0 .. 99, each as often
+    EXPECT_LE(largest, most_read);
 }
 
 // The empty space around a thing is the lowest value, or that of what lies behind it.
