@@ -214,6 +214,31 @@ TEST(ConstantBorder, IsFoundInFilesWithoutReadingThemWhole) {
     EXPECT_LE(largest, most_read);
 }
 
+// The wanted opacity decides what would show, not the function that it replaces.
+TEST(ConstantBorder, IsCutAwayIfTheWantedOpacityShowsIt) {
+    // A dark and a bright ball in flesh, which is transparent unless an opacity is wanted.
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0, 4);
+    const Volume volume = test::volume_of<std::int16_t>(
+        test::grid_of({42, 42, 42}, Centering::node), [&](double i, double j, double k) {
+            const glm::dvec3 at(i, j, k);
+            if (k >= edge) return 104.;
+            const auto inside = [&](double middle) {
+                return std::clamp((9 - glm::length(at - middle)) / 2 + .5, 0., 1.);
+            };
+            return std::round(flesh + (air - flesh) * inside(12) + (bone - flesh) * inside(28) +
+                              noise(random));
+        });
+    const auto planes_with = [&](const char* opacity) {
+        Words words;
+        words.opacity = opacity;
+        const Adjustments adjustments = adjustments_of(words, ImageColorSpace::linear);
+        return chosen_for(volume, test::open_scene(), adjustments).scene.clip.planes.size();
+    };
+    EXPECT_EQ(planes_with(""), 0u);
+    EXPECT_EQ(planes_with("linear"), 1u);
+}
+
 // The empty space around a thing is the lowest value, or that of what lies behind it.
 TEST(ConstantBorder, IsNotTheAirAroundAThing) {
     const auto border_around = [](double value, const auto& is_inside) {
