@@ -391,12 +391,12 @@ Choices choose_unlit(Scene asked, const Field& whole, const Adjustments& adjustm
     } else {
         change(*scene.transfer_function, adjustments.transfer, scene);
     }
-    if (inner) clip_border(*inner, own, choices);
     if (adjustments.opacity) {
         chosen.reason = take_opacity(adjustments, *scene.transfer_function);
         chosen.per_world_unit = false;
         chosen.median_opacity = AutomaticTransfer().median_opacity;
     }
+    if (inner) clip_border(*inner, own, choices);
     std::string orientation;
     if (chooses_camera)
         orientation = choose_camera(adjustments, field, chosen.per_world_unit, scene);

@@ -19,28 +19,29 @@ constexpr double most_alike = .5;
 // a lower value is not.
 constexpr double least_rise = .25;
 constexpr std::int64_t most_share = 3;  // at least 1 / most_share of an axis is inside
+// Number of samples from which a median is taken; of larger layers every n-th counts.
+constexpr std::int64_t most_for_median = std::int64_t{1} << 20;
 
-// Takes layers away from the sides of a volume.
+// Takes layers away from the sides of a volume, once from each side.
 template <typename T>
 class Peeling {
   public:
     Peeling(const Volume& volume, const ValueRange& range) : volume_(volume), range_(range) {}
 
-    // Sides behind which most samples are alike are left as they are, and the others are sought
-    // again: they may reach farther then.
+    // Sides whose layers are no border are left as they are, and the others are sought again: they
+    // may reach farther then.
     ConstantBorder peel() {
         do {
             found_ = {};
             found_.inside.size = volume_.grid().size;
+            done_ = left_;
             for (bool more = true; more;) {
                 more = false;
                 for (const std::size_t axis : {2, 1, 0}) {
                     for (const bool upper : {false, true}) more = take_away(axis, upper) || more;
                 }
             }
-        } while (leave_empty_space());
-        // What holds one value alone has nothing to show without its border.
-        if (all_are(found_.inside, first_of(found_.inside))) return {};
+        } while (leave_no_borders());
         return std::move(found_);
     }
 
@@ -53,16 +54,26 @@ class Peeling {
         return box;
     }
 
-    // Calls visit(begin, end) for the box's rows of samples along x until it returns false.
+    // Calls visit(begin, end) for the box's rows of samples along x until it returns false. Returns
+    // its last result.
     template <typename Visit>
-    void for_each_row(const SampleBox& box, const Visit& visit) const {
-        visit_window<T>(volume_, box, [&](const SampleWindow<T>& window) {
+    bool for_each_row(const SampleBox& box, const Visit& visit) const {
+        const std::size_t across = box.size[2] > 1 ? 2 : 1;
+        if (!volume_.in_memory() && box.count() > most_read && box.size[across] > 1) {
+            SampleBox first = box, second = box;
+            first.size[across] /= 2;
+            second.first[across] += first.size[across];
+            second.size[across] -= first.size[across];
+            return for_each_row(first, visit) && for_each_row(second, visit);
+        }
+        return visit_window<T>(volume_, box, [&](const SampleWindow<T>& window) {
             for (std::int64_t z = box.first[2]; z < box.first[2] + box.size[2]; ++z) {
                 for (std::int64_t y = box.first[1]; y < box.first[1] + box.size[1]; ++y) {
                     const T* const row = window.row(y, z) + (box.first[0] - window.box.first[0]);
-                    if (!visit(row, row + box.size[0])) return;
+                    if (!visit(row, row + box.size[0])) return false;
                 }
             }
+            return true;
         });
     }
 
@@ -77,11 +88,9 @@ class Peeling {
     }
 
     bool all_are(const SampleBox& box, T value) const {
-        bool all = true;
-        for_each_row(box, [&](const T* begin, const T* end) {
-            return all = std::all_of(begin, end, [&](T one) { return one == value; });
+        return for_each_row(box, [&](const T* begin, const T* end) {
+            return std::all_of(begin, end, [&](T one) { return one == value; });
         });
-        return all;
     }
 
     // Returns the number of layers, up to `most`, whose samples all have a value.
@@ -113,10 +122,14 @@ class Peeling {
 
     // `otherwise`: returned if all are NaN, which has no order.
     double median(const SampleBox& box, double otherwise) const {
+        const std::int64_t step = (box.count() - 1) / most_for_median + 1;
         std::vector<T> values;
-        values.reserve(static_cast<std::size_t>(box.count()));
+        values.reserve(static_cast<std::size_t>(box.count() / step + 1));
+        std::int64_t next = 0;  // counted from the beginning of the row
         for_each_row(box, [&](const T* begin, const T* end) {
-            std::copy_if(begin, end, std::back_inserter(values), [](T one) { return one == one; });
+            for (; next < end - begin; next += step)
+                if (begin[next] == begin[next]) values.push_back(begin[next]);
+            next -= end - begin;
             return true;
         });
         if (values.empty()) return otherwise;
@@ -135,34 +148,43 @@ class Peeling {
     bool take_away(std::size_t axis, bool upper) {
         const std::int64_t size = volume_.grid().size[axis];
         const std::int64_t most = found_.inside.size[axis] - size / most_share - 1;
-        if (most <= 0 || left_[axis][upper ? 1 : 0]) return false;
+        bool& done = done_[axis][upper ? 1 : 0];
+        if (most <= 0 || done) return false;
         const T value = first_of(layers(axis, upper, 0, 1));
         const std::int64_t alike = width(axis, upper, value, most);
         if (alike == 0) return false;
         found_.layers.push_back(
             {axis, upper, alike, static_cast<double>(value), 0, layers(axis, upper, 0, alike)});
         found_.inside = layers(axis, upper, alike, found_.inside.size[axis] - alike);
-        return true;
+        return done = true;
     }
 
-    // Marks sides whose layers are the empty space around a thing. Returns false if there are none.
-    bool leave_empty_space() {
+    // Tells if layers are a border of what lies behind them, whose median is set then. They are not
+    // if the samples behind them have one value, too, as in a field that varies along one axis
+    // alone, or if they are the empty space around a thing.
+    bool is_border(BorderLayers& found) const {
+        const SampleBox behind = layers(found.axis, found.upper, 0, 1);
+        if (all_are(behind, first_of(behind))) return false;
+        found.behind = median(behind, found.value);
+        const bool space =
+            found.value == range_.lo &&
+            found.behind / 2 - range_.lo / 2 > least_rise * (range_.hi / 2 - range_.lo / 2);
+        return !space && share(behind, static_cast<T>(found.value)) < most_alike;
+    }
+
+    // Marks sides whose layers are no border. Returns false if there are none.
+    bool leave_no_borders() {
         bool any = false;
         for (BorderLayers& one : found_.layers) {
-            const SampleBox behind = layers(one.axis, one.upper, 0, 1);
-            one.behind = median(behind, one.value);
-            const bool space =
-                one.value == range_.lo &&
-                one.behind / 2 - range_.lo / 2 > least_rise * (range_.hi / 2 - range_.lo / 2);
-            if (!space && share(behind, static_cast<T>(one.value)) < most_alike) continue;
-            any = left_[one.axis][one.upper ? 1 : 0] = true;
+            if (!is_border(one)) any = left_[one.axis][one.upper ? 1 : 0] = true;
         }
         return any;
     }
 
     const Volume& volume_;
     const ValueRange range_;
-    std::array<std::array<bool, 2>, 3> left_{};  // by axis and side
+    // By axis and side: sides whose layers are no border, and those and the sides that are taken.
+    std::array<std::array<bool, 2>, 3> left_{}, done_{};
     ConstantBorder found_;
 };
 

@@ -27,15 +27,19 @@ struct BorderLayers {
 // A border of constant values, as programs put around data to enlarge them: it means nothing, but
 // closes the view of what is inside.
 struct ConstantBorder {
-    std::vector<BorderLayers> layers;  // in the order in which they are taken away
+    std::vector<BorderLayers> layers;  // at most one a side, in the order of taking them away
     SampleBox inside;
 };
 
-// Finds layers of one value at the sides of a volume, behind which most samples have others: up to
-// two thirds of the samples along an axis. Layers of the lowest value are no border if what lies
-// behind them is much higher: they are the empty space around a thing. Nothing in volumes that are
-// large (large_volume), because they may stay in their files. `range`: of the finite samples.
+// Finds layers of one value at the sides of a volume, behind which the samples have several values,
+// most of them others: up to two thirds of the samples along an axis. Layers of the lowest value
+// are no border if what lies behind them is much higher: they are the empty space around a thing.
+// Nothing in volumes that are large (large_volume). `range`: of the finite samples.
 std::optional<ConstantBorder> find_constant_border(const Volume& volume, const ValueRange& range);
+
+// Number of samples that find_constant_border() reads at once, or a row if it is longer, of a
+// volume that stays in its files.
+constexpr std::int64_t most_read = std::int64_t{1} << 20;
 
 // Calls visitor(a SampleWindow<T> with the samples of a box), and returns its result. A window in
 // memory holds the whole volume; of a volume that stays in its files, the box is read. T: the type

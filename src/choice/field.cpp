@@ -421,6 +421,7 @@ double VolumeField::spacing() const {
 bool VolumeField::axial_slices() const {
     constexpr double least_body = 50, least_slice = 100, most_slice = 700;  // mm
     const Grid& grid = volume_.grid();
+    if (!grid.unit.empty() && grid.unit != "mm") return false;
     std::array<double, 3> distance, length;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!(grid.step[axis][static_cast<int>(axis)] > 0)) return false;  // not along the world's

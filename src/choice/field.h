@@ -26,7 +26,7 @@ namespace lamina {
 
 class Field;
 
-// A field without layers of one value at a side, which a clip cuts away.
+// Layers of one value at a side of the data, which a clip may cut away.
 struct BorderSide {
     double value = 0;        // of the layers
     double behind = 0;       // median of the first layer inside
@@ -34,7 +34,7 @@ struct BorderSide {
     ClipPlane inside{};      // keeps what is inside
 };
 
-// A volume without the border around it (choice/constant_border.h).
+// The data without the border around them (choice/constant_border.h).
 struct BorderlessField {
     std::unique_ptr<Field> field;
     std::vector<BorderSide> sides;

@@ -71,8 +71,8 @@ constexpr double outline_opacity = .5;
 // sheets are thin.
 constexpr double body_opacity = .95, body_length = 1e-3;
 constexpr int body_ranks = 24;  // values of a body's colours, each with as much of the field
-// Of data without a background, this share shows at each end of the values, behind a surface of
-// this opacity and these places among the colours.
+// Share of data without a background that shows at each end of the values, and opacity and places
+// among the colours of the surface in front of it.
 constexpr double shown_end = .1, end_opacity = .95, low_place = .2, high_place = .75;
 constexpr double least_end = 2;  // bins, of an end of the values
 // A material and a background are two halves of one thing if both take less than this share of the

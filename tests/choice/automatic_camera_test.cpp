@@ -195,6 +195,7 @@ TEST(Orientation, TheHeadOfAxialSlicesIsUp) {
         std::array<std::int64_t, 3> size{8, 8, 6};
         glm::dvec3 spacing{30, 30, 20};
         WorldAxes axes = WorldAxes::unnamed;
+        const char* unit = "";
     };
     const auto up = [](const Slices& slices) {
         Grid grid = test::grid_of(slices.size, Centering::node);
@@ -203,6 +204,7 @@ TEST(Orientation, TheHeadOfAxialSlicesIsUp) {
             grid.step[static_cast<std::size_t>(axis)][axis] = slices.spacing[axis];
         }
         grid.axes = slices.axes;
+        grid.unit = slices.unit;
         const auto samples = std::make_shared<std::vector<float>>(8 * 8 * 8);
         const Volume volume(grid, slices.type,
                             std::shared_ptr<const void>(samples, samples->data()));
@@ -218,6 +220,8 @@ TEST(Orientation, TheHeadOfAxialSlicesIsUp) {
     EXPECT_NE(up({.spacing = {.2, .2, .5}}), head);  // of a microscope
     EXPECT_NE(up({.spacing = {30, 30, 5}}), head);   // flat
     EXPECT_NE(up({.axes = WorldAxes::named}), head);
+    EXPECT_EQ(up({.unit = "mm"}), head);
+    EXPECT_NE(up({.unit = "um"}), head);  // of a microscope
 }
 
 TEST(Orientation, EveryAxisCanBeUpAndFrontsAreRightHanded) {

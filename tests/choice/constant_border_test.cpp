@@ -8,7 +8,9 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <random>
+#include <utility>
 
 #include "choice/choose.h"
 #include "choice/field.h"
@@ -168,6 +170,73 @@ TEST(ConstantBorder, IsSaidAndKeptIfAsked) {
     Scene boxed = test::open_scene();
     boxed.clip.box = ClipBox{glm::dvec3(-2), glm::dvec3(30)};
     EXPECT_TRUE(chosen_for(volume, boxed).scene.clip.planes.empty());
+}
+
+// Layers of one value each are the data of a field that varies along one axis alone.
+TEST(ConstantBorder, IsNoLayerOfARamp) {
+    for (const std::size_t axis : {0, 1, 2}) {
+        for (const std::int64_t length : {2, 4, 5, 60}) {
+            for (const double thickness : {1., 5.}) {  // samples of a layer
+                Grid grid = test::grid_of({9, 9, 9}, Centering::node);
+                grid.size[axis] = length;
+                const Volume volume =
+                    test::volume_of<float>(grid, [&](double i, double j, double k) {
+                        return std::floor(std::array{i, j, k}[axis] / thickness);
+                    });
+                SCOPED_TRACE(fmt::format("axis {}, {} layers of {}", axis, length, thickness));
+                EXPECT_FALSE(find_constant_border(volume, measure_bricks(volume).whole));
+                EXPECT_FALSE(find_constant_border(test::stored(volume), {0, 60}));
+                EXPECT_TRUE(chosen_for(volume).scene.clip.keeps_all());
+            }
+        }
+    }
+}
+
+// Layers of more samples than are read at once.
+TEST(ConstantBorder, IsFoundInFilesWithoutReadingThemWhole) {
+    const Volume volume = test::volume_of<std::uint8_t>(
+        test::grid_of({2048, 1024, 4}, Centering::node),
+        [](double i, double j, double k) { return k == 0 ? 255 : static_cast<int>(i + j) % 100; });
+    auto source = std::make_unique<test::SourceInMemory>(volume);
+    std::int64_t largest = 0;
+    source->before_read = [&](const SampleBox& box) { largest = std::max(largest, box.count()); };
+    const Volume in_files(
+        volume.grid(), volume.type(),
+        std::make_shared<const VolumeStore>(volume.grid(), volume.type(), std::move(source)));
+    const auto here = find_constant_border(volume, {0, 255});
+    const auto there = find_constant_border(in_files, {0, 255});
+    ASSERT_TRUE(here && there);
+    ASSERT_EQ(here->layers.size(), 1u);
+    ASSERT_EQ(there->layers.size(), 1u);
+    EXPECT_EQ(there->inside.size, (std::array<std::int64_t, 3>{2048, 1024, 3}));
+    EXPECT_EQ(there->layers[0].behind, here->layers[0].behind);
+    EXPECT_NEAR(there->layers[0].behind, 50, 1);  // the median of 0 .. 99, each as often
+    EXPECT_LE(largest, most_read);
+}
+
+// The wanted opacity decides what would show, not the function that it replaces.
+TEST(ConstantBorder, IsCutAwayIfTheWantedOpacityShowsIt) {
+    // A dark and a bright ball in flesh, which is transparent unless an opacity is wanted.
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0, 4);
+    const Volume volume = test::volume_of<std::int16_t>(
+        test::grid_of({42, 42, 42}, Centering::node), [&](double i, double j, double k) {
+            const glm::dvec3 at(i, j, k);
+            if (k >= edge) return 104.;
+            const auto inside = [&](double middle) {
+                return std::clamp((9 - glm::length(at - middle)) / 2 + .5, 0., 1.);
+            };
+            return std::round(flesh + (air - flesh) * inside(12) + (bone - flesh) * inside(28) +
+                              noise(random));
+        });
+    const auto planes_with = [&](const char* opacity) {
+        Words words;
+        words.opacity = opacity;
+        const Adjustments adjustments = adjustments_of(words, ImageColorSpace::linear);
+        return chosen_for(volume, test::open_scene(), adjustments).scene.clip.planes.size();
+    };
+    EXPECT_EQ(planes_with(""), 0u);
+    EXPECT_EQ(planes_with("linear"), 1u);
 }
 
 // The empty space around a thing is the lowest value, or that of what lies behind it.
