@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -171,14 +170,6 @@ double diagonal_of(const Field& field);
 // Returns what annotations tell of the data. `with_labels`: lists the labels that occur in them,
 // for which the values are counted, without those of which `clip` is known to keep nothing.
 AnnotatedData annotated_data(const Field& field, bool with_labels, const Clip& clip = {});
-
-// Returns world points whose convex hull holds all visible cells, outer half voxels included; none
-// if no cell is visible. A cell is visible if shows(range of its corners' finite samples) is true;
-// it must then be true for wider ranges, too. `inside`: the samples between which cells count, if
-// not all do. In large volumes, bricks take the place of cells, and all of them count.
-std::vector<glm::dvec3> hull_of_shown_cells(const Volume& volume, const MinMaxBricks& bricks,
-                                            const std::function<bool(const ValueRange&)>& shows,
-                                            const std::optional<SampleBox>& inside = {});
 
 // Number of samples above which camera and extinctions are chosen from fewer samples, because the
 // volume may stay on disk. In memory it is treated alike, so that its picture is the same.

@@ -388,8 +388,9 @@ bool lies_on_surface(const CommonValues& common, const ValueDistribution& values
     return field.surface_outside({common.lo, common.hi}) > 1 - values.share(common.lo, common.hi);
 }
 
-// Shows a mesh as an opaque body. Its surface is coloured by the mean of a value's rank, which tells
-// common values apart, and of its place in the range, which lets the highest and lowest stand out.
+// Shows a mesh as an opaque body. Its surface is coloured by the mean of a value's rank, which
+// tells common values apart, and of its place in the range, which lets the highest and lowest stand
+// out.
 ChosenSurfaces of_body(const ValueDistribution& values, const TransferSubject& subject) {
     const double extinction =
         veil_extinction(body_opacity, body_length * diagonal_of(*subject.field));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "choice/field.h"
+#include "choice/shown_cells.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/memory.h"
+#include "choice/field.h"
 #include "facts/volume_facts.h"
 #include "support/volume_of.h"
 
