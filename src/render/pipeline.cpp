@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 #include <iterator>
+#include <new>
 #include <utility>
 
 #include "base/client.h"
@@ -341,7 +342,9 @@ std::string Pipeline::explanation() {
     return in_context([&] { return chosen_text(reasons_) + drawing.explanation(); });
 }
 
-// Small pictures are drawn: both together, twice, take a tenth to a fifth of a frame.
+// Draws small pictures: twice with and twice without light, in frames a sixteenth as large. What is
+// set up for the one without is thrown away, and before this pipeline's own renderer is set up, so
+// that the two do not take memory together.
 std::string Pipeline::light_cost() {
     constexpr int scale = 4;  // of the picture's edges
     if (scene().method == Method::trace || !scene_.lighting || options_.make_frames) return {};
@@ -356,19 +359,33 @@ std::string Pipeline::light_cost() {
         }
         return shortest;
     };
-    return in_context([&] {
+    const auto measured = [&] {
         Scene unlit = drawing.resolved().scene();
         unlit.lighting.reset();
         unlit.width = std::max(1, unlit.width / scale);
         unlit.height = std::max(1, unlit.height / scale);
+        const double without = shortest_ms(*renderer_of(unlit));
         drawing.set_size(unlit.width, unlit.height);
         const double with_light = shortest_ms(drawing);
-        drawing.set_size(scene_.width, scene_.height);
-        const double without = shortest_ms(*renderer_of(unlit));
         return fmt::format(
-            "light\n  a frame takes {:.1f} times as long as without light (measured at {} x {}: "
-            "{:.3g} and {:.3g} ms)\n",
+            "a frame takes {:.1f} times as long as without light (measured at {} x {}: {:.3g} and "
+            "{:.3g} ms)",
             with_light / without, unlit.width, unlit.height, with_light, without);
+    };
+    return in_context([&] {
+        std::string cost;
+        const auto not_measured = [&](const std::exception& error) {
+            cost = "what it costs cannot be measured: " + error_text(error);
+        };
+        try {
+            cost = measured();
+        } catch (const Error& error) {
+            not_measured(error);
+        } catch (const std::bad_alloc& error) {
+            not_measured(error);
+        }
+        drawing.set_size(scene_.width, scene_.height);
+        return "light\n  " + cost + "\n";
     });
 }
 

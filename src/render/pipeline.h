@@ -111,7 +111,8 @@ class Pipeline {
     const Plan& plan();
     std::string explanation();  // the plan as text, after the sentences of reasons()
     // Returns lines that say what light costs in this scene: draws small pictures with and without
-    // it. Empty if nothing is lit, or if other processes draw.
+    // it, for which the data are set up a second time. If that fails, the lines say why. Empty if
+    // nothing is lit, or if other processes draw.
     std::string light_cost();
     void warn_of_plan();  // warns about the plan and the data
 

@@ -14,6 +14,7 @@
 #include "support/heard_warnings.h"
 #include "support/scene_fixture.h"
 #include "support/split_box.h"
+#include "support/stored_volume.h"
 #include "support/temporary_folder.h"
 #include "support/volume_of.h"
 
@@ -84,6 +85,34 @@ TEST(Pipeline, MeasuresWhatLightCosts) {
     measured.draw(picture);
     ASSERT_EQ(picture.width, 48);
     EXPECT_TRUE(picture.rgba == expected.rgba);
+}
+
+// The plan is explained all the same, and the picture has its size again.
+TEST(Pipeline, SaysWhyItCannotMeasureWhatLightCosts) {
+    nlohmann::json document = minimal_scene();
+    document["image"] = {{"width", 48}, {"height", 40}};
+    document["lighting"] = nlohmann::json::object();
+    const Volume volume =
+        test::volume_of<float>(test::grid_of({8, 8, 8}, Centering::node),
+                               [](double i, double j, double k) { return (i + j + k) / 21; });
+    auto source = std::make_unique<test::SourceInMemory>(volume);
+    test::SourceInMemory& files = *source;
+    PipelineOptions options;
+    options.context = ContextChoice::cpu;
+    Pipeline pipeline(read_scene(document, "s"),
+                      SceneData(Volume(volume.grid(), volume.type(),
+                                       std::make_shared<const VolumeStore>(
+                                           volume.grid(), volume.type(), std::move(source)))),
+                      options);
+    pipeline.plan();
+    files.changed = true;
+    const std::string cost = pipeline.light_cost();
+    EXPECT_NE(cost.find("light\n  what it costs cannot be measured: "), std::string::npos) << cost;
+    EXPECT_NE(cost.find("the files were changed"), std::string::npos) << cost;
+    files.changed = false;
+    Image picture;
+    pipeline.draw(picture);
+    EXPECT_EQ(picture.width, 48);
 }
 
 // Writes 40 samples each of the labels 0, 9 and `last`.
