@@ -159,12 +159,19 @@ class Peeling {
         return done = true;
     }
 
+    // Tells if layers of the same value lie at sides along other axes, too.
+    bool is_around(const BorderLayers& found) const {
+        return std::ranges::any_of(found_.layers, [&](const BorderLayers& one) {
+            return one.axis != found.axis && one.value == found.value;
+        });
+    }
+
     // Tells if layers are a border of what lies behind them, whose median is set then. They are not
-    // if the samples behind them have one value, too, as in a field that varies along one axis
-    // alone, or if they are the empty space around a thing.
+    // if they are the empty space around a thing, or if the samples behind them have one value,
+    // too, as in a field that varies along one axis alone; behind a frame there may be clean air.
     bool is_border(BorderLayers& found) const {
         const SampleBox behind = layers(found.axis, found.upper, 0, 1);
-        if (all_are(behind, first_of(behind))) return false;
+        if (!is_around(found) && all_are(behind, first_of(behind))) return false;
         found.behind = median(behind, found.value);
         const bool space =
             found.value == range_.lo &&

@@ -34,12 +34,12 @@ struct Widths {
     static Widths all(std::int64_t width) { return {{width, width, width}, {width, width, width}}; }
 };
 
-// A noisy scan of a ball with another one inside. Around it is a border of one value, so that
-// sample (0, 0, 0) of the scan has its place.
+// A scan of a ball with another one inside, with noise of this standard deviation. Around it is a
+// border of one value, so that sample (0, 0, 0) of the scan has its place.
 template <typename Sample>
-Volume bordered(double value, const Widths& widths) {
+Volume bordered(double value, const Widths& widths, double deviation = 4) {
     std::mt19937 random(5);
-    std::normal_distribution<double> noise(0, 4);
+    std::normal_distribution<double> noise(0, 1);
     std::vector<double> scan;
     for (std::int64_t i = 0; i < edge * edge * edge; ++i) {
         const glm::dvec3 at(i % edge, i / edge % edge, i / (edge * edge));
@@ -49,7 +49,7 @@ Volume bordered(double value, const Widths& widths) {
         };
         const double mean =
             air + (flesh - air) * inside(flesh_radius) + (bone - flesh) * inside(bone_radius);
-        scan.push_back(std::round(mean + noise(random)));
+        scan.push_back(std::round(mean + deviation * noise(random)));
     }
     Grid grid = test::grid_of({1, 1, 1}, Centering::node);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -101,6 +101,15 @@ TEST(ConstantBorder, ChangesNoTransferFunctionAndIsCutAway) {
     expect_picture_without_border<std::int16_t>(bone);
     expect_picture_without_border<std::uint8_t>(255);
     expect_picture_without_border<float>(flesh + .5);
+}
+
+TEST(ConstantBorder, IsFoundAroundAirOfOneValue) {
+    for (const std::int64_t width : widths) {
+        const Volume volume = bordered<std::uint8_t>(255, Widths::all(width), 0);
+        const Choices found = chosen_for(volume);
+        SCOPED_TRACE(width);
+        expect_scan_is_left(found.scene.clip);
+    }
 }
 
 // Nothing shows between such a border and the air behind it.
