@@ -161,7 +161,7 @@ struct alignas(64) CoveredArea : PixelArea {
     TetOutline outline = {};
 };
 
-// Returns the outline of a tet with 1 to 3 front faces whose depths are found in float32.
+// Returns the outline of a tet with 1 to 3 front faces that are not seen edge-on.
 TetOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows);
 
 }  // namespace lamina
