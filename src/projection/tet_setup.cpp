@@ -65,7 +65,10 @@ class TetVectors {
             good = good & set_whole();
         }
         set_bounds();
-        if (lit) good = good & set_gradients();
+        if (lit) {
+            const DoubleMask unscaled = set_gradients();
+            if (careful_) good = good & unscaled;
+        }
         put_whole(lanes_.limits[2], fronts_);
         put(lanes_.good, zero_unless(good, Double(1)));
         put(lanes_.visible, zero_unless(visible_, Double(1)));
@@ -127,7 +130,7 @@ class TetVectors {
         put_whole(lanes_.pixels[3], top - first_row);
     }
 
-    // Returns true if the signs are certain and float32 is good enough.
+    // Returns true if the signs are certain and, unless `careful`, float32 is good enough.
     DoubleMask find_faces() {
         Double reach = 0, size = 0, steepest = 0, rounding = 0;
         for (const SeenPoints& p : seen_) {
@@ -233,7 +236,7 @@ class TetVectors {
     }
 
     // Sets the components of the gradient as set_scalars() sets the scalar. Returns true if they
-    // are as TetProjector finds them, which scales them later.
+    // are not shortened; TetProjector rounds those that are otherwise.
     DoubleMask set_gradients() {
         const TetSlopes<Double> slopes(seen_);
         const SeenPoints from_corner = tet_.center() - seen_[0];
@@ -251,7 +254,7 @@ class TetVectors {
             const auto linear = tet_.linear(values[0] + dot(slope, from_corner), slope);
             for (std::size_t i = 0; i < 4; ++i) put(lanes_.lit[axis][i], finite(linear[i]));
         }
-        return careful_ ? scale == 1 : scale <= 1;
+        return scale == 1;
     }
 
     // Returns true if float32 is good enough for the scalars (facts/drawn_range.h).
