@@ -2,8 +2,8 @@
 // Draws a frame of a mesh on the CPU:
 //   1. Sort the visible cell fragments into visibility order, and cut them into batches.
 //   2. For each batch: project its cell fragments onto the window, in chunks, and list in which
-//      tiles each chunk lies. TetSetup projects clear cases in vectors, TetProjector the others and
-//      all of plans that are not `plain`, and FanGeometry makes the triangles of Kraus 2004.
+//      tiles each chunk lies. TetSetup projects clear cases in vectors, TetProjector the
+//      others, and FanGeometry makes the triangles of Kraus 2004.
 //   3. While the next batch is projected: for each tile, composite the fragments of this batch's
 //      chunks in order (cpu_fragments.h).
 // With a compositing tree, steps 2 and 3 draw each leaf, and the leaves' opacities are composited.
@@ -268,14 +268,9 @@ void CpuProjectRenderer::project_chunk(const Projectors& projectors,
                                        TileBatch::Chunk& chunk) const {
     chunk.clear();
     const std::span<const CellFragment> cell_fragments = order.items;
-    if (is_fan() || !plan_.plain) {
-        for (std::size_t i = 0; i < cell_fragments.size(); ++i) {
-            if (is_fan()) {
-                project_fan(projectors.fans, cell_fragments[i], order.pixels(i), chunk);
-            } else {
-                project_careful(projectors.careful, cell_fragments[i], order.pixels(i), chunk);
-            }
-        }
+    if (is_fan()) {
+        for (std::size_t i = 0; i < cell_fragments.size(); ++i)
+            project_fan(projectors.fans, cell_fragments[i], order.pixels(i), chunk);
         return;
     }
     for (std::size_t first = 0; first < cell_fragments.size();
@@ -286,8 +281,8 @@ void CpuProjectRenderer::project_chunk(const Projectors& projectors,
         // Records are written in the chunk, and moved up if one before them is not drawn.
         SilhouetteRecord* const records = &chunk.next();
         GradientRecord* const lit = chunk.next_gradient();
-        set_up_tets(projectors.tets, group, cell_fragments.subspan(first + group.size()), records,
-                    lit, done);
+        set_up_tets(projectors.tets, group, cell_fragments.subspan(first + group.size()),
+                    !plan_.plain, records, lit, done);
         for (std::size_t i = 0; i < group.size(); ++i) {
             const PixelArea* const limit = order.pixels(first + i);
             if (done.outcomes[i] == TetSetup::Outcome::done) {
@@ -312,9 +307,9 @@ void CpuProjectRenderer::project_careful(const TetProjector& projector,
         projector.project(cell_fragment, chunk.next(), outline, chunk.next_gradient());
     if (!kind) return;
     const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
-    // These cell fragments are drawn as careful ones, which is right for every kind. They are few,
-    // except in plans that are not `plain`, which draw every cell fragment this way. Such plans
-    // pass DepthBound::any, because their weights come from FrontWeightTable.
+    // These few cell fragments are drawn as careful ones, which is right for every kind. Plans that
+    // are not `plain`, which draw all this way, take DepthBound::any, because their weights come
+    // from FrontWeightTable.
     add({{bounds.first_column, bounds.last_column, grid.height() - 1 - bounds.last_row,
           grid.height() - 1 - bounds.first_row},
          true,
@@ -355,8 +350,11 @@ void CpuProjectRenderer::add(CoveredArea area, std::int32_t tet, const PixelArea
         if (area.empty()) return;
         area.bounded = true;
         // The outline is relative to the area's first pixel.
-        if (!is_fan() && !area.careful)
+        if (area.careful) {
+            area.outline = {};
+        } else if (!is_fan()) {
             area.outline = outline_of(chunk.next(), area, image_.grid().height());
+        }
     }
     chunk.add(area, tet);
     for (int row = area.first_row / edge; row <= area.last_row / edge; ++row) {

@@ -102,18 +102,42 @@ class PlainDepths {
 // Finds the depths on faces in double precision, for FragmentKind::careful.
 class CarefulDepths {
   public:
+    // Sums are computed here and not for each vector of pixels, because the compiler cannot exclude
+    // that writing to the queue changes the record.
     LAMINA_INLINE CarefulDepths(const TetFragments& fragments, const SilhouetteRecord& record)
-        : fragments_(fragments), record_(record), seen_(record.seen()) {}
+        : record_(record),
+          fronts_(record.front_faces()),
+          nearest_(fragments.near_depth - record.seen().center_depth),
+          middle_{double{record.seen().center[0]} - double{fragments.image_middle.x},
+                  double{record.seen().center[1]} - double{fragments.image_middle.y}},
+          shift_(fragments.ray_perturbation),
+          shift_per_pixel_(fragments.ray_perturbation.z * double{fragments.pixel_size}) {
+        const SeenTet& seen = record.seen();
+        const auto sum = [](const SeenTet::Pairs& pairs, std::size_t face) {
+            return double{pairs.high[face]} + double{pairs.low[face]};
+        };
+        for (std::size_t face = 0; face < 4; ++face) {
+            depth_[face] = sum(seen.depth, face);
+            per_column_[face] = sum(seen.depth_per_column, face);
+            per_row_[face] = sum(seen.depth_per_row, face);
+        }
+    }
 
-    using AtColumns = Float64;
-    LAMINA_INLINE AtColumns at_columns(Float column) const { return moved_column(Float64(column)); }
-    LAMINA_INLINE InsideSpan<Float> at(const AtColumns& columns, Float row) const {
-        const Float64 rows = moved_row(Float64(row));
-        const auto depth = [&](std::size_t face)
-                               LAMINA_LAMBDA { return to_float(plane(face, columns, rows)); };
-        const Float nearest(fragments_.near_depth - seen_.center_depth);
-        return order_depths_from(record_.front_faces(), nearest, depth(0), depth(1), depth(2),
-                                 depth(3));
+    struct AtColumns {
+        Float64 d0, d1, d2, d3;
+    };
+    LAMINA_INLINE AtColumns at_columns(Float column) const {
+        const Float64 x = moved_column(Float64(column));
+        const auto start = [&](std::size_t face)
+                               LAMINA_LAMBDA { return depth_[face] + per_column_[face] * x; };
+        return {start(0), start(1), start(2), start(3)};
+    }
+    LAMINA_INLINE InsideSpan<Float> at(const AtColumns& start, Float row) const {
+        const Float64 y = moved_row(Float64(row));
+        const auto depth = [&](std::size_t face, const Float64& at_column)
+                               LAMINA_LAMBDA { return to_float(at_column + per_row_[face] * y); };
+        return order_depths_from(fronts_, Float(nearest_), depth(0, start.d0), depth(1, start.d1),
+                                 depth(2, start.d2), depth(3, start.d3));
     }
 
     // A ray's segment: its length along z, and the scalars at its ends, not clamped.
@@ -124,19 +148,21 @@ class CarefulDepths {
     // `column`, `row`: from the record's center.
     LAMINA_INLINE ExactSpan exact_at(bool perspective, Float column, Float row) const {
         const Float64 x = moved_column(Float64(column)), y = moved_row(Float64(row));
-        const Float64 nearest = double{fragments_.near_depth - seen_.center_depth};
-        const InsideSpan<Float64> span =
-            order_depths_from(record_.front_faces(), nearest, plane(0, x, y), plane(1, x, y),
-                              plane(2, x, y), plane(3, x, y));
+        const auto plane = [&](std::size_t face) LAMINA_LAMBDA {
+            return depth_[face] + per_column_[face] * x + per_row_[face] * y;
+        };
+        const SeenTet& seen = record_.seen();
+        const InsideSpan<Float64> span = order_depths_from(fronts_, Float64(double{nearest_}),
+                                                           plane(0), plane(1), plane(2), plane(3));
         const auto exact = [&](std::size_t i, float rounded) {
             return double{rounded} + double{record_.tet.scalar_rest[i]};
         };
-        const double origin = exact(0, seen_.scalar), per_z = exact(1, seen_.scalar_per_z);
+        const double origin = exact(0, seen.scalar), per_z = exact(1, seen.scalar_per_z);
         const Float64 aside =
-            exact(2, seen_.scalar_per_column) * x + exact(3, seen_.scalar_per_row) * y;
+            exact(2, seen.scalar_per_column) * x + exact(3, seen.scalar_per_row) * y;
         const auto z_of = [&](Float64 depth) LAMINA_LAMBDA {
             if (!perspective) return Float64(1);
-            return -1 / min(double{seen_.center_depth} + depth, -1e-30);
+            return -1 / min(double{seen.center_depth} + depth, -1e-30);
         };
         const Float64 z_front = z_of(span.enter), z_back = z_of(span.leave), z_center = z_of(0);
         const auto scalar = [&](Float64 depth, Float64 z) LAMINA_LAMBDA {
@@ -147,32 +173,22 @@ class CarefulDepths {
     }
 
   private:
-    // Returns the depth of a face, from the record's center.
-    LAMINA_INLINE Float64 plane(std::size_t face, Float64 x, Float64 y) const {
-        const auto sum = [&](const SeenTet::Pairs& pairs) {
-            return double{pairs.high[face]} + double{pairs.low[face]};
-        };
-        return sum(seen_.depth) + sum(seen_.depth_per_column) * x + sum(seen_.depth_per_row) * y;
-    }
-
     // These move a pixel's place by the ray perturbation, less its component along the ray.
     LAMINA_INLINE Float64 moved_column(Float64 column) const {
-        return moved(column, seen_.center[0], fragments_.image_middle.x,
-                     fragments_.ray_perturbation.x);
+        return moved(column, middle_.x, shift_.x);
     }
-    LAMINA_INLINE Float64 moved_row(Float64 row) const {
-        return moved(row, seen_.center[1], fragments_.image_middle.y,
-                     fragments_.ray_perturbation.y);
-    }
-    LAMINA_INLINE Float64 moved(Float64 place, float center, float middle, double shift) const {
-        const Float64 from_middle = place + (double{center} - double{middle});
-        const double per_pixel = fragments_.ray_perturbation.z * double{fragments_.pixel_size};
-        return place + shift - from_middle * per_pixel;
+    LAMINA_INLINE Float64 moved_row(Float64 row) const { return moved(row, middle_.y, shift_.y); }
+    LAMINA_INLINE Float64 moved(Float64 place, double from_middle, double shift) const {
+        return place + shift - (place + from_middle) * shift_per_pixel_;
     }
 
-    const TetFragments& fragments_;
     const SilhouetteRecord& record_;
-    const SeenTet& seen_;
+    std::uint32_t fronts_;
+    float nearest_;      // depth of the near plane, from the record's center
+    glm::dvec2 middle_;  // the center, from the picture's middle
+    glm::dvec3 shift_;   // the ray perturbation
+    double shift_per_pixel_;
+    double depth_[4], per_column_[4], per_row_[4];  // planes of the faces
 };
 
 // The planes that cut a cell fragment, on which the scalar is its least or its largest. Planes in

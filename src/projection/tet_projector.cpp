@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "optics/segment_integral.h"
+#include "projection/tet_setup.h"
 #include "projection/tet_view-inl.h"
 #include "simd/vectors-inl.h"
 
@@ -102,11 +103,6 @@ constexpr double least_inclination = 1e-16;
 double largest(const glm::dvec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
-
-// Smallest width, as a share of the distance from the eye, of a tet that is drawn. In eye space its
-// corners have rounding errors of about a 1000th of this width. Planes through the corners of a
-// thinner tet, a needle, could lie anywhere. A ray meets one with about this probability.
-constexpr double least_width = 0x1p-42;
 
 bool is_needle(const std::array<glm::dvec3, 4>& corners) {
     // double_area: twice the area of the largest face.

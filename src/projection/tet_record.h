@@ -65,7 +65,7 @@ struct TetRecord {
     std::uint32_t fronts;  // the number of front faces, 0 (the eye is inside) to 3
     std::uint32_t number;  // cell_fragment_number(), for dithering
     std::array<float, 4> unused;
-    // Remainders of `scalar` and the next three members in float. Only TetProjector sets them.
+    // Remainders of `scalar` and the next three members in float. Only careful tets have them.
     std::array<float, 4> scalar_rest;
     std::array<float, 4> also_unused;
 };
@@ -161,8 +161,8 @@ struct alignas(64) CoveredArea : PixelArea {
     TetOutline outline = {};
 };
 
-// Returns the outline of a tet with 1 to 3 front faces whose depths are found in float32. `block`:
-// the pixels along a block's side.
+// Returns the outline of a tet with 1 to 3 front faces that are not seen edge-on. `block`: the
+// pixels along a block's side.
 TetOutline outline_of(const SilhouetteRecord& record, const PixelArea& area, int image_rows,
                       int block = TileGrid::block);
 

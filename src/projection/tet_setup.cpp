@@ -51,8 +51,8 @@ struct FacePlanes {
 // Sets up one vector of tets, lanes `first` and following of a SetupLanes.
 class TetVectors {
   public:
-    TetVectors(const TetsInView& tets, SetupLanes& lanes, std::size_t first)
-        : tets_(tets), lanes_(lanes), first_(first), tet_(tets.view()) {}
+    TetVectors(const TetsInView& tets, bool careful, SetupLanes& lanes, std::size_t first)
+        : tets_(tets), lanes_(lanes), first_(first), careful_(careful), tet_(tets.view()) {}
 
     void set_up(bool cell_fragments, bool lit) {
         see();
@@ -64,7 +64,11 @@ class TetVectors {
         } else {
             good = good & set_whole();
         }
-        if (lit) set_gradients();
+        set_bounds();
+        if (lit) {
+            const DoubleMask unscaled = set_gradients();
+            if (careful_) good = good & unscaled;
+        }
         put_whole(lanes_.limits[2], fronts_);
         put(lanes_.good, zero_unless(good, Double(1)));
         put(lanes_.visible, zero_unless(visible_, Double(1)));
@@ -76,6 +80,11 @@ class TetVectors {
     Double get(const Row& row) const { return load<Double>(row.data() + first_); }
     void put(Row& row, Double v) const { store(v, row.data() + first_); }
     void put(FloatRow& row, Double v) const { store_as_floats(v, row.data() + first_); }
+    // Stores numbers as sums of two floats.
+    void put_pair(FloatRow& high, FloatRow& low, Double v) const {
+        put(high, v);
+        if (careful_) put(low, v - rounded_to_float(v));
+    }
     // Stores whole numbers as 32-bit integers, in the bits of floats.
     void put_whole(FloatRow& row, Double v) const { store_as_int_bits(v, row.data() + first_); }
 
@@ -96,7 +105,7 @@ class TetVectors {
         const auto bounds = tet_.place_center(std::span<const SeenPoints>(seen_));
         nearest_ = bounds.nearest;
         farthest_ = bounds.farthest;
-        set_bounds(bounds.lo_x, bounds.hi_x, bounds.lo_y, bounds.hi_y);
+        bounds_ = {bounds.lo_x, bounds.hi_x, bounds.lo_y, bounds.hi_y};
         put(lanes_.center[0], tet_.center_x);
         put(lanes_.center[1], tet_.center_y);
         put(lanes_.center[2], tet_.center_depth);
@@ -104,12 +113,15 @@ class TetVectors {
     }
 
     // Sets the bounds of the pixel centres that may be covered (pixel_bounds()).
-    void set_bounds(Double lo_x, Double hi_x, Double lo_y, Double hi_y) {
-        const double least = 0.5 + tets_.margin, most = tets_.margin - 0.5;
-        const Double first_column = max(ceil(lo_x - least), 0),
-                     first_row = max(ceil(lo_y - least), 0);
-        const Double last_column = min(floor(hi_x + most), tets_.view().width - 1);
-        const Double last_row = min(floor(hi_y + most), tets_.view().height - 1);
+    void set_bounds() {
+        const auto first = [&](Double least)
+                               LAMINA_LAMBDA { return max(ceil(least - tets_.margin - 0.5), 0); };
+        const auto last = [&](Double most, int count) LAMINA_LAMBDA {
+            return min(floor(most + tets_.margin - 0.5), count - 1);
+        };
+        const Double first_column = first(bounds_.lo_x), first_row = first(bounds_.lo_y);
+        const Double last_column = last(bounds_.hi_x, tets_.view().width);
+        const Double last_row = last(bounds_.hi_y, tets_.view().height);
         visible_ = (first_column <= last_column) & (first_row <= last_row);
         put_whole(lanes_.pixels[0], first_column);
         put_whole(lanes_.pixels[1], last_column);
@@ -118,7 +130,7 @@ class TetVectors {
         put_whole(lanes_.pixels[3], top - first_row);
     }
 
-    // Returns true if the signs are certain and float32 is good enough.
+    // Returns true if the signs are certain and, unless `careful`, float32 is good enough.
     DoubleMask find_faces() {
         Double reach = 0, size = 0, steepest = 0, rounding = 0;
         for (const SeenPoints& p : seen_) {
@@ -132,10 +144,11 @@ class TetVectors {
         const Double least_across = doubtful_sign * (reach * (size * size));
         DoubleMask good = nearest_ > tets_.near_depth;
         FacePlanes planes;
+        Double largest_area = 0;
         for (std::size_t face = 0; face < 4; ++face) {
-            const SeenPoints &a = seen_[face == 0 ? 1 : 0], &b = seen_[face <= 1 ? 2 : 1],
-                             &c = seen_[face == 3 ? 2 : 3];
+            const auto [a, b, c] = corners_of_face(face);
             const SeenPoints normal = cross(b - a, c - a);
+            largest_area = max(largest_area, largest_of(normal));
             const Double distance = dot(normal, a), across = dot(normal, seen_[face] - a);
             const Double divisor = tet_.divisor(normal, distance);
             good = good & ((abs(divisor) > least_divisor) & (abs(across) > least_across));
@@ -145,11 +158,15 @@ class TetVectors {
             rounding = max(rounding, tet_.size_of(plane));
         }
         for (std::size_t place = 0; place < 4; ++place) {
-            put(lanes_.depth[place], planes.depth[place]);
-            put(lanes_.per_column[place], planes.per_column[place]);
-            put(lanes_.per_row[place], planes.per_row[place]);
+            put_pair(lanes_.depth[place], lanes_.depth_low[place], planes.depth[place]);
+            put_pair(lanes_.per_column[place], lanes_.per_column_low[place],
+                     planes.per_column[place]);
+            put_pair(lanes_.per_row[place], lanes_.per_row_low[place], planes.per_row[place]);
         }
         fronts_ = planes.fronts;
+        good = good & ((fronts_ > 0) & (fronts_ < 4));
+        // No longest edge exceeds 2 `size`; another factor 2 is far above the products' rounding.
+        if (careful_) return good & (largest_area > 4 * least_width * (reach * size));
         const Double float_rounding = rounding * float_epsilon,
                      tolerance = float_tolerance * tet_.depth_range;
         put(lanes_.farthest, tet_.inverted(farthest_) - tet_.center_depth + tolerance);
@@ -158,7 +175,32 @@ class TetVectors {
         DoubleMask bounded = 100 * float_rounding > tolerance;
         if (tet_.perspective()) bounded = bounded | (16 * steepest > abs(tet_.center_depth));
         put(lanes_.bounded, zero_unless(bounded, Double(1)));
-        return good & ((fronts_ > 0) & (fronts_ < 4));
+        return good;
+    }
+    // Returns the corners of a face by ascending place.
+    std::array<SeenPoints, 3> corners_of_face(std::size_t face) const {
+        std::array<std::size_t, 3> number{face == 0 ? 1u : 0u, face <= 1 ? 2u : 1u,
+                                          face == 3 ? 2u : 3u};
+        std::array<SeenPoints, 3> corners{seen_[number[0]], seen_[number[1]], seen_[number[2]]};
+        if (!careful_) return corners;
+        std::array<Double, 3> places;
+        for (std::size_t i = 0; i < 3; ++i) places[i] = get(lanes_.place[number[i]]);
+        const auto sort = [&](std::size_t i, std::size_t j) LAMINA_LAMBDA {
+            const DoubleMask swapped = places[i] > places[j];
+            const auto sort_pair = [&](Double& low, Double& high) LAMINA_LAMBDA {
+                const Double first = select(swapped, high, low);
+                high = select(swapped, low, high);
+                low = first;
+            };
+            sort_pair(places[i], places[j]);
+            sort_pair(corners[i].x, corners[j].x);
+            sort_pair(corners[i].y, corners[j].y);
+            sort_pair(corners[i].z, corners[j].z);
+        };
+        sort(0, 1);
+        sort(1, 2);
+        sort(0, 1);
+        return corners;
     }
 
     // Finds the scalar's gradient; returns true if it is finite.
@@ -168,30 +210,34 @@ class TetVectors {
         largest_ = max(max(values_[0], values_[1]), max(values_[2], values_[3]));
         return largest_of(gradient_) <= 1e30 * (largest_ - least_);
     }
-    static SeenPoints gradient_of(const TetSlopes<Double>& slopes,
-                                  const std::array<Double, 4>& values) {
+    SeenPoints gradient_of(const TetSlopes<Double>& slopes,
+                           const std::array<Double, 4>& values) const {
         const SeenPoints numerator =
             slopes.numerator(values[1] - values[0], values[2] - values[0], values[3] - values[0]);
-        return scaled(numerator, 1 / slopes.determinant);
+        if (!careful_) return scaled(numerator, 1 / slopes.determinant);
+        return {numerator.x / slopes.determinant, numerator.y / slopes.determinant,
+                numerator.z / slopes.determinant};
     }
 
     Double scalar_at(const SeenPoints& point) const {
         return values_[0] + dot(gradient_, point - seen_[0]);
     }
-    void put_linear(SetupLanes::Group& group, Double at_center, const SeenPoints& gradient) const {
-        const auto linear = tet_.linear(at_center, gradient);
-        for (std::size_t i = 0; i < 4; ++i) put(group[i], finite(linear[i]));
-    }
 
     // Sets the scalar as (scalar - origin) / width.
     void set_scalars(Double origin, Double width) {
         const Double scale = zero_unless(width > 0, 1 / width);
-        put_linear(lanes_.scalar, (scalar_at(tet_.center()) - origin) * scale,
-                   scaled(gradient_, scale));
+        const auto linear =
+            tet_.linear((scalar_at(tet_.center()) - origin) * scale, scaled(gradient_, scale));
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Double value = finite(linear[i]);
+            put(lanes_.scalar[i], value);
+            if (careful_) put(lanes_.scalar_rest[i], finite(linear[i] - rounded_to_float(value)));
+        }
     }
 
-    // Sets the components of the gradient as set_scalars() sets the scalar.
-    void set_gradients() {
+    // Sets the components of the gradient as set_scalars() sets the scalar. Returns true if they
+    // are not shortened; TetProjector rounds those that are otherwise.
+    DoubleMask set_gradients() {
         const TetSlopes<Double> slopes(seen_);
         const SeenPoints from_corner = tet_.center() - seen_[0];
         Double largest = 0;
@@ -205,8 +251,10 @@ class TetVectors {
             std::array<Double, 4> values;
             for (std::size_t i = 0; i < 4; ++i) values[i] = get(lanes_.gradient[axis][i]) * scale;
             const SeenPoints slope = gradient_of(slopes, values);
-            put_linear(lanes_.lit[axis], values[0] + dot(slope, from_corner), slope);
+            const auto linear = tet_.linear(values[0] + dot(slope, from_corner), slope);
+            for (std::size_t i = 0; i < 4; ++i) put(lanes_.lit[axis][i], finite(linear[i]));
         }
+        return scale == 1;
     }
 
     // Returns true if float32 is good enough for the scalars (facts/drawn_range.h).
@@ -224,6 +272,7 @@ class TetVectors {
     void set_fragment() {
         const Double from = get(lanes_.piece_from), to = get(lanes_.piece_to);
         const Double low = clamp(least_, from, to), high = clamp(largest_, from, to);
+        if (careful_) bounds_ = bounds_between(low, high);
         set_scalars(low, high - low);
         const Cut lower = cut_at(low, from > least_, true);
         const Cut upper = cut_at(high, to < largest_, false);
@@ -255,6 +304,42 @@ class TetVectors {
         put(lanes_.largest_depth, longest_edge<Double>(seen_) * most);
     }
 
+    // Bounds in window coordinates.
+    struct Bounds {
+        Double lo_x, hi_x, lo_y, hi_y;
+
+        LAMINA_INLINE void add(DoubleMask here, Double x, Double y) {
+            lo_x = select(here, min(lo_x, x), lo_x);
+            hi_x = select(here, max(hi_x, x), hi_x);
+            lo_y = select(here, min(lo_y, y), lo_y);
+            hi_y = select(here, max(hi_y, y), hi_y);
+        }
+    };
+    // Returns the bounds of the region with scalars from `low` to `high` (TetField::outline()).
+    Bounds bounds_between(Double low, Double high) const {
+        Bounds bounds{INFINITY, -INFINITY, INFINITY, -INFINITY};
+        const auto add = [&](DoubleMask here, const SeenPoints& p) LAMINA_LAMBDA {
+            const auto [x, y] = tet_.in_window(p);
+            bounds.add(here, x, y);
+        };
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Double from = values_[i];
+            add((from >= low) & (from <= high), seen_[i]);
+            for (std::size_t j = i + 1; j < 4; ++j) {
+                const Double to = values_[j];
+                for (const Double level : {low, high}) {
+                    const DoubleMask crosses =
+                        ((from < level) & (to > level)) | ((from > level) & (to < level));
+                    if (none_of(crosses)) continue;
+                    const Double share = (level - from) / (to - from);
+                    const SeenPoints edge = scaled(seen_[j] - seen_[i], share);
+                    add(crosses, {seen_[i].x + edge.x, seen_[i].y + edge.y, seen_[i].z + edge.z});
+                }
+            }
+        }
+        return bounds;
+    }
+
     // A plane of constant scalar, as in FragmentRecord.
     struct Cut {
         TetView<Double>::DepthPlane plane;
@@ -272,11 +357,13 @@ class TetVectors {
     const TetsInView& tets_;
     SetupLanes& lanes_;
     std::size_t first_;
+    bool careful_;
     TetView<Double> tet_;
     std::array<SeenPoints, 4> seen_;
     std::array<Double, 4> values_;
     Double fronts_, nearest_, farthest_, least_, largest_;
     SeenPoints gradient_;
+    Bounds bounds_;
     DoubleMask visible_;
 };
 
@@ -311,14 +398,22 @@ static_assert(offsetof(FragmentRecord, fronts) == offsetof(TetRecord, fronts));
 static_assert(offsetof(FragmentRecord, number) == offsetof(TetRecord, number));
 static_assert(offsetof(FragmentRecord, upper_cut) == offsetof(FragmentRecord, lower_cut) + 12);
 
-LAMINA_INLINE void write_records(const SetupLanes& lanes, bool cell_fragments, std::size_t count,
-                                 SilhouetteRecord* records) {
+LAMINA_INLINE void write_records(const SetupLanes& lanes, bool cell_fragments, bool careful,
+                                 std::size_t count, SilhouetteRecord* records) {
     write_group<offsetof(SeenTet, depth)>(lanes.depth, count, records);
     write_group<offsetof(SeenTet, depth_per_column)>(lanes.per_column, count, records);
     write_group<offsetof(SeenTet, depth_per_row)>(lanes.per_row, count, records);
     write_group<offsetof(SeenTet, center)>(lanes.center, count, records);
     write_group<offsetof(SeenTet, scalar)>(lanes.scalar, count, records);
     write_group<offsetof(TetRecord, least)>(lanes.limits, count, records);
+    if (careful) {
+        constexpr std::size_t low = offsetof(SeenTet::Pairs, low);
+        write_group<offsetof(SeenTet, depth) + low>(lanes.depth_low, count, records);
+        write_group<offsetof(SeenTet, depth_per_column) + low>(lanes.per_column_low, count,
+                                                               records);
+        write_group<offsetof(SeenTet, depth_per_row) + low>(lanes.per_row_low, count, records);
+        write_group<offsetof(TetRecord, scalar_rest)>(lanes.scalar_rest, count, records);
+    }
     if (!cell_fragments) return;
     write_group<offsetof(FragmentRecord, lower_cut)>(lanes.cuts, count, records);
     write_group<offsetof(FragmentRecord, low)>(lanes.low, count, records);
@@ -334,12 +429,12 @@ LAMINA_INLINE void write_gradients(const SetupLanes& lanes, std::size_t count,
 }
 
 // Sets up all vectors; writes `count` records, gradients unless `lit` is null, and areas' pixels.
-void set_up_vectors(const TetsInView& tets, bool cell_fragments, SetupLanes& lanes,
+void set_up_vectors(const TetsInView& tets, bool cell_fragments, bool careful, SetupLanes& lanes,
                     std::size_t count, SilhouetteRecord* records, GradientRecord* lit,
                     CoveredArea* areas) {
     for (std::size_t first = 0; first < TetSetup::most_cell_fragments; first += Double::lanes)
-        TetVectors(tets, lanes, first).set_up(cell_fragments, lit != nullptr);
-    write_records(lanes, cell_fragments, count, records);
+        TetVectors(tets, careful, lanes, first).set_up(cell_fragments, lit != nullptr);
+    write_records(lanes, cell_fragments, careful, count, records);
     if (lit != nullptr) write_gradients(lanes, count, lit);
     write_group<0>(lanes.pixels, count, areas);
 }
@@ -353,10 +448,15 @@ LAMINA_EXPORT(set_up_vectors);
 
 namespace {
 
-// Returns a tet's corners, sorted by place: all tets around a face take its corners in one order.
-std::array<std::size_t, 4> sorted_corners(const TetMesh& mesh, const Tet& tet) {
+std::array<std::size_t, 4> corners_of(const Tet& tet) {
     std::array<std::size_t, 4> corners;
     for (std::size_t i = 0; i < 4; ++i) corners[i] = static_cast<std::size_t>(tet[i]);
+    return corners;
+}
+
+// Returns a tet's corners, sorted by place: all tets around a face take its corners in one order.
+std::array<std::size_t, 4> sorted_corners(const TetMesh& mesh, const Tet& tet) {
+    std::array<std::size_t, 4> corners = corners_of(tet);
     constexpr int bits = 32;  // if there are copies, the place stands above the corner's
     for (std::size_t i = 0; i < 4 && mesh.has_copies(); ++i)
         corners[i] |= static_cast<std::size_t>(mesh.place(tet[i])) << bits;
@@ -390,15 +490,16 @@ LAMINA_INLINE void prefetch(const TetsInView& tets, std::span<const CellFragment
 }
 
 // Fills all lanes; those without a cell fragment repeat the last one.
-void load(const TetsInView& tets, std::span<const CellFragment> cell_fragments, bool lit,
-          SetupLanes& lanes) {
+void load(const TetsInView& tets, std::span<const CellFragment> cell_fragments, bool careful,
+          bool lit, SetupLanes& lanes) {
     const auto all = tets.mesh.tets();
     for (std::size_t lane = 0; lane < TetSetup::most_cell_fragments; ++lane) {
         const CellFragment& cell_fragment =
             cell_fragments[std::min(lane, cell_fragments.size() - 1)];
-        const auto corners =
-            sorted_corners(tets.mesh, all[static_cast<std::size_t>(cell_fragment.tet)]);
+        const Tet& tet = all[static_cast<std::size_t>(cell_fragment.tet)];
+        const auto corners = careful ? corners_of(tet) : sorted_corners(tets.mesh, tet);
         for (std::size_t i = 0; i < 4; ++i) {
+            if (careful) lanes.place[i][lane] = tets.mesh.place(tet[i]);
             const glm::dvec3& point = tets.mesh.points()[corners[i]];
             lanes.x[i][lane] = point.x;
             lanes.y[i][lane] = point.y;
@@ -423,8 +524,8 @@ void load(const TetsInView& tets, std::span<const CellFragment> cell_fragments, 
     }
 }
 
-void store(std::span<const CellFragment> cell_fragments, const SetupLanes& lanes, int image_rows,
-           const SilhouetteRecord* records, TetSetup& result) {
+void store(std::span<const CellFragment> cell_fragments, const SetupLanes& lanes, bool careful,
+           int image_rows, const SilhouetteRecord* records, TetSetup& result) {
     using Outcome = TetSetup::Outcome;
     for (std::size_t lane = 0; lane < cell_fragments.size(); ++lane) {
         Outcome& outcome = result.outcomes[lane];
@@ -432,15 +533,15 @@ void store(std::span<const CellFragment> cell_fragments, const SetupLanes& lanes
                   : lanes.visible[lane] == 0 ? Outcome::invisible
                                              : Outcome::done;
         if (outcome != Outcome::done) continue;
-        const bool whole = cell_fragments[lane].piece == CellFragment::whole;
-        const double depth = whole ? INFINITY : lanes.largest_depth[lane];
+        const bool any_depth = careful || cell_fragments[lane].piece == CellFragment::whole;
+        const double depth = any_depth ? INFINITY : lanes.largest_depth[lane];
         CoveredArea& area = result.areas[lane];
-        area.careful = false;
+        area.careful = careful;
         area.depth = depth <= faint_depth  ? DepthBound::faint
                      : depth <= thin_depth ? DepthBound::thin
                                            : DepthBound::any;
-        area.bounded = lanes.bounded[lane] != 0;
-        area.farthest = static_cast<float>(lanes.farthest[lane]);
+        area.bounded = careful || lanes.bounded[lane] != 0;
+        area.farthest = careful ? INFINITY : static_cast<float>(lanes.farthest[lane]);
         area.outline = outline_of(records[lane], area, image_rows);
     }
 }
@@ -448,15 +549,15 @@ void store(std::span<const CellFragment> cell_fragments, const SetupLanes& lanes
 }  // namespace
 
 void set_up_tets(const TetsInView& tets, std::span<const CellFragment> cell_fragments,
-                 std::span<const CellFragment> next, SilhouetteRecord* records, GradientRecord* lit,
-                 TetSetup& result) {
+                 std::span<const CellFragment> next, bool careful, SilhouetteRecord* records,
+                 GradientRecord* lit, TetSetup& result) {
     SetupLanes lanes;
     prefetch(tets, next);
-    load(tets, cell_fragments, lit != nullptr, lanes);
+    load(tets, cell_fragments, careful, lit != nullptr, lanes);
     const bool pieces = cell_fragments[0].piece != CellFragment::whole;
     LAMINA_DISPATCH(set_up_vectors)
-    (tets, pieces, lanes, cell_fragments.size(), records, lit, result.areas.data());
-    store(cell_fragments, lanes, tets.view().height, records, result);
+    (tets, pieces, careful, lanes, cell_fragments.size(), records, lit, result.areas.data());
+    store(cell_fragments, lanes, careful, tets.view().height, records, result);
 }
 
 }  // namespace lamina

@@ -103,6 +103,12 @@ class TetView {
     // Returns the depth (tet_record.h) of a z; or the z of a depth, by the same formula.
     LAMINA_INLINE Number inverted(Number value) const { return perspective_ ? -1 / value : value; }
 
+    // Returns window coordinates.
+    LAMINA_INLINE std::array<Number, 2> in_window(const Point& p) const {
+        const Number scale = perspective_ ? view_.pixel * p.z : Number(view_.pixel);
+        return {0.5 * view_.width + p.x / scale, 0.5 * view_.height + p.y / scale};
+    }
+
     // The corners' bounds in window coordinates and along z.
     struct Bounds {
         Number lo_x, hi_x, lo_y, hi_y, nearest, farthest;
@@ -115,8 +121,7 @@ class TetView {
         Bounds bounds{INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, 0};
         Number mean = 0;
         for (const Point& p : corners) {
-            const Number scale = perspective_ ? view_.pixel * p.z : Number(view_.pixel);
-            const Number x = 0.5 * width + p.x / scale, y = 0.5 * height + p.y / scale;
+            const auto [x, y] = in_window(p);
             bounds.lo_x = min(bounds.lo_x, x);
             bounds.hi_x = max(bounds.hi_x, x);
             bounds.lo_y = min(bounds.lo_y, y);

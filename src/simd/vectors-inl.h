@@ -313,6 +313,26 @@ LAMINA_INLINE auto gather(const T* from, Vector<D> place) {
     using Tag = hn::Rebind<T, D>;
     return Vector<Tag>(hn::GatherIndex(Tag(), from, place.v));
 }
+// Returns the numbers at `place` and those behind them. One instruction gathers both.
+struct FloatPairs {
+    Float first, second;
+};
+LAMINA_INLINE FloatPairs gather_pairs(const float* from, Int place) {
+#if HWY_TARGET <= HWY_AVX2
+    const hn::Half<Int::Tag> half;
+    const auto pairs = [&](auto places) LAMINA_LAMBDA {
+        const auto bytes = hn::ShiftLeft<2>(hn::PromoteTo(Long::Tag(), places));
+        return hn::BitCast(
+            Float::Tag(),
+            hn::GatherOffset(Long::Tag(), reinterpret_cast<const std::int64_t*>(from), bytes));
+    };
+    const auto low = pairs(hn::LowerHalf(half, place.v)),
+               high = pairs(hn::UpperHalf(half, place.v));
+    return {hn::ConcatEven(Float::Tag(), high, low), hn::ConcatOdd(Float::Tag(), high, low)};
+#else
+    return {gather(from, place), gather(from + 1, place)};
+#endif
+}
 // Returns the word that begins `bytes` behind `from`.
 LAMINA_INLINE Word gather_at_bytes(const std::uint32_t* from, Int bytes) {
     return hn::GatherOffset(Word::Tag(), from, bytes.v);

@@ -84,9 +84,9 @@ LAMINA_INLINE Float front_weight(const float* table, int nodes, Float p, Float q
     const Int column = min(to_int(x), nodes - 2), row = min(to_int(y), nodes - 2);
     const Float share_x = x - to_float(column), share_y = y - to_float(row);
     const Int place = row * nodes + column;
-    const Float near = mix(gather(table, place), gather(table + 1, place), share_x);
-    const Float far = mix(gather(table + nodes, place), gather(table + nodes + 1, place), share_x);
-    return mix(near, far, share_y);
+    const auto [near_left, near_right] = gather_pairs(table, place);
+    const auto [far_left, far_right] = gather_pairs(table + nodes, place);
+    return mix(mix(near_left, near_right, share_x), mix(far_left, far_right, share_x), share_y);
 }
 
 // Returns the front weight for any optical depth by nine-point Gauss-Legendre quadrature over the

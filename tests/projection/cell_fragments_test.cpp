@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tets cut at the transfer function's points, in meshes so large that depths on faces are float32.
+#include <cstring>
+
+#include "projection/tet_setup.h"
 #include "projection/visible_cell_fragments.h"
 #include "projection_fixture.h"
 #include "support/split_box.h"
@@ -118,6 +121,89 @@ TEST_P(Parts, OmitWhatShowsNothing) {
     EXPECT_EQ(parts.count(), expected);
     for (const CellFragment& cell_fragment : list)
         EXPECT_TRUE(cell_fragment.piece == 1 || cell_fragment.piece == 2);
+}
+
+// Compares numbers, so that -0 equals 0.
+template <typename Record>
+void expect_equal(const Record& a, const Record& b) {
+    std::array<float, sizeof(Record) / sizeof(float)> of_a, of_b;
+    std::memcpy(of_a.data(), &a, sizeof(a));
+    std::memcpy(of_b.data(), &b, sizeof(b));
+    EXPECT_EQ(of_a, of_b);
+}
+
+// Sets up cell fragments in both ways and compares them; returns how many were `done`.
+std::size_t compare_careful(const TetsInView& tets, std::span<const CellFragment> all) {
+    constexpr std::size_t most = TetSetup::most_cell_fragments;
+    const TetProjector projector(tets);
+    std::size_t done = 0;
+    for (std::size_t first = 0; first < all.size(); first += most) {
+        const auto group = all.subspan(first, std::min(most, all.size() - first));
+        std::array<SilhouetteRecord, most> records{};
+        std::array<GradientRecord, most> gradients{};
+        TetSetup found;
+        set_up_tets(tets, group, {}, true, records.data(), gradients.data(), found);
+        for (std::size_t i = 0; i < group.size(); ++i) {
+            if (found.outcomes[i] == TetSetup::Outcome::needs_care) continue;
+            SilhouetteRecord record{};
+            GradientRecord gradient{};
+            ScreenOutline outline;
+            const bool visible =
+                projector.project(group[i], record, outline, &gradient).has_value();
+            EXPECT_EQ(found.outcomes[i] == TetSetup::Outcome::done, visible);
+            ++done;
+            if (!visible) continue;
+            expect_equal(records[i], record);
+            expect_equal(gradients[i], gradient);
+            const View& view = tets.view();
+            const PixelBounds bounds =
+                pixel_bounds(outline.points(), tets.margin, view.width, view.height);
+            const CoveredArea& area = found.areas[i];
+            EXPECT_EQ(area.first_column, bounds.first_column);
+            EXPECT_EQ(area.last_column, bounds.last_column);
+            EXPECT_EQ(area.first_row, view.height - 1 - bounds.last_row);
+            EXPECT_EQ(area.last_row, view.height - 1 - bounds.first_row);
+        }
+    }
+    return done;
+}
+
+TEST(TetSetup, CarefulCellFragmentsAreThoseOfTetProjector) {
+    const SceneMesh mesh = scene_mesh(test::split_box(7, 1000, 1e-2, ripples));
+    const ValueRange range{0, 1};
+    const TetPieces pieces(with_peak(3), range);
+    std::vector<glm::vec3> gradients;
+    for (const glm::dvec3& point : mesh.mesh.points())
+        gradients.emplace_back(glm::cross(point, glm::dvec3(.1, .02, .3)));
+    std::vector<CellFragment> whole, cut;
+    for (std::int32_t tet = 0; tet < std::ssize(mesh.mesh.tets()); ++tet) {
+        whole.push_back({tet});
+        const auto met = pieces.met(mesh.scalar.values, mesh.mesh.tets()[tet]);
+        for (std::int32_t piece = met.first; piece <= met.last; ++piece)
+            cut.push_back({tet, piece});
+    }
+    ASSERT_GT(cut.size(), whole.size());
+    for (const auto projection : {Projection::perspective, Projection::orthographic}) {
+        for (const glm::dvec3& eye : {glm::dvec3(.5, .5, 3), glm::dvec3(2, 1.7, 1.4)}) {
+            Scene scene = projection_scene(with_peak(3), 97, 64);
+            scene.camera->projection = projection;
+            scene.camera->eye = eye;
+            scene.camera->center = {.45, .5, .5};
+            scene.camera->up = {0, 1, 0};
+            scene.camera->height = 1.4;
+            const TetsInView tets{mesh.mesh,
+                                  mesh.scalar.values,
+                                  range,
+                                  pieces,
+                                  WindowView(View(*scene.camera, scene.width, scene.height)),
+                                  1e-3,
+                                  1e-3,
+                                  gradients};
+            // Only faces that are seen edge-on need more care.
+            EXPECT_GT(compare_careful(tets, whole), whole.size() * 9 / 10);
+            EXPECT_GT(compare_careful(tets, cut), cut.size() * 9 / 10);
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, Parts, every_engine, engine_name);
