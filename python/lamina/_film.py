@@ -2,6 +2,7 @@
 """Films."""
 from __future__ import annotations
 
+import operator
 import pathlib
 from typing import TYPE_CHECKING, Iterable, Sequence, overload
 
@@ -27,8 +28,17 @@ def save_film(pictures: Iterable[Picture], file: Path, *, fps: int = 25, progres
     >>> session = lamina.Session({"version": 1, "volume": {"generate": "gaussians", "size": [16, 16, 16]}}, size=(40, 30))
     >>> lamina.save_film([session.draw(), session.draw()], "film.apng", fps=10)
     """
+    if isinstance(pictures, Picture):
+        raise TypeError("pictures: found one picture, expected a list of them")
     frames = [_frame(picture) for picture in pictures]
-    _lamina.save_film(frames, pathlib.Path(file), fps, progress)
+    _lamina.save_film(frames, pathlib.Path(file), _rate(fps), progress)
+
+
+def _rate(fps: int) -> int:
+    try:
+        return operator.index(fps)
+    except TypeError:
+        raise TypeError(f"fps: found {fps!r}, expected a whole number") from None
 
 
 def _frame(picture: Picture) -> bytes:
@@ -62,7 +72,7 @@ class Turntable(Sequence[Picture]):
         too, of which programs that do not know APNG show the first picture."""
         path = pathlib.Path(file)
         if path.suffix == ".png":
-            write_file(path, _lamina.animated_png([_frame(picture) for picture in self], fps))
+            write_file(path, _lamina.animated_png([_frame(picture) for picture in self], _rate(fps)))
         else:
             save_film(self, path, fps=fps, progress=progress)
 

@@ -120,6 +120,10 @@ def test_films_that_cannot_be_are_refused(session, tmp_path):
             lamina.save_film(pictures, tmp_path / name, fps=fps)
     with pytest.raises(TypeError, match="expected pictures"):
         lamina.save_film([3], tmp_path / "a.apng")
+    with pytest.raises(TypeError, match="^pictures: found one picture, expected a list of them$"):
+        lamina.save_film(picture, tmp_path / "a.apng")
+    with pytest.raises(TypeError, match="^fps: found 2.5, expected a whole number$"):
+        lamina.save_film([picture], tmp_path / "a.apng", fps=2.5)
     assert not list(tmp_path.iterdir())
 
 
