@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "choice/field.h"
 
 namespace lamina {
 
@@ -221,7 +222,8 @@ AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers,
                                 const TransferSubject& subject) {
     const ValueDistribution& values = padding.rest;
     if (values.distinct() < 2) return one_value(values.empty() ? 0 : values.lowest());
-    if (whole_numbers && values.distinct() <= most_labels && values.distinct() > 2)
+    if (whole_numbers && values.distinct() <= most_labels && values.distinct() > 2 &&
+        (subject.field == nullptr || subject.field->lies_in_pieces()))
         return label_transfer(values, nullptr);
     const ChosenSurfaces chosen = choose_surfaces(padding, whole_numbers, subject);
     return chosen.points.empty() ? one_value(values.lowest()) : with_surfaces(chosen);

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <numbers>
 #include <optional>
 
@@ -348,17 +350,31 @@ void clip_border(const BorderlessField& inner, const Clip& own, Choices& choices
                     values, widest, widest == 1 ? "" : "s"));
 }
 
+// Tells whether a box ends inside the border: at the planes that would cut it away, or farther in.
+bool ends_inside(const ClipBox& box, const BorderlessField& inner) {
+    constexpr double rounding = 1e-9;  // of the box's places, which may be written with few digits
+    const glm::dvec3 slack = rounding * glm::max(glm::abs(box.min), glm::abs(box.max));
+    return std::ranges::all_of(inner.sides, [&](const BorderSide& side) {
+        const glm::dvec3& normal = side.inside.normal;
+        const glm::dvec3 nearest = glm::mix(box.min, box.max, glm::lessThan(normal, glm::dvec3(0)));
+        return glm::dot(nearest + glm::sign(normal) * slack - side.inside.point, normal) >= 0;
+    });
+}
+
 // Chooses all but the directions of lights that were asked for.
 Choices choose_unlit(Scene asked, const Field& whole, const Adjustments& adjustments) {
     Choices choices{std::move(asked), {}};
     Scene& scene = choices.scene;
     std::optional<BorderlessField> inner;
-    if (scene.transfer_function.is_automatic() && !scene.clip.box && !adjustments.own_crop &&
+    // A box says itself what it keeps. If this has a part of the border, the border counts.
+    const bool has_box = scene.clip.box || adjustments.own_crop;
+    if (scene.transfer_function.is_automatic() && (scene.clip.box || !has_box) &&
         scene.clip.planes.size() + 6 <= Clip::most_planes)
         inner = whole.without_border();
+    if (inner && has_box && !ends_inside(*scene.clip.box, *inner)) inner.reset();
     const Field& field = inner ? *inner->field : whole;
     const Clip own = scene.clip;
-    if (inner)
+    if (inner && !has_box)
         for (const BorderSide& side : inner->sides) scene.clip.planes.push_back(side.inside);
     const bool lights = leaves_light_open(scene);
     const ValueDistribution values =
@@ -396,7 +412,7 @@ Choices choose_unlit(Scene asked, const Field& whole, const Adjustments& adjustm
         chosen.per_world_unit = false;
         chosen.median_opacity = AutomaticTransfer().median_opacity;
     }
-    if (inner) clip_border(*inner, own, choices);
+    if (inner && !has_box) clip_border(*inner, own, choices);
     std::string orientation;
     if (chooses_camera)
         orientation = choose_camera(adjustments, field, chosen.per_world_unit, scene);

@@ -21,6 +21,7 @@
 #include "mesh/predicates.h"
 #include "optics/pieces.h"
 #include "scene/clip.h"
+#include "volume/labels.h"
 #include "volume/sample_source.h"
 #include "volume/volume_store.h"
 
@@ -205,6 +206,11 @@ bool VolumeField::axial_slices() const {
     return grid.axes == WorldAxes::unnamed && whole_numbers() && grid.size[0] == grid.size[1] &&
            distance[0] == distance[1] && distance[2] != distance[0] && length[0] >= least_slice &&
            length[0] <= most_slice && length[2] >= least_body;
+}
+
+bool VolumeField::lies_in_pieces() const {
+    const LabelSigns::Verdict verdict = label_signs(volume_).verdict;
+    return verdict == LabelSigns::Verdict::labels || verdict == LabelSigns::Verdict::scattered;
 }
 
 const VolumeLabels* VolumeField::labels() const {

@@ -54,6 +54,9 @@ class Field {
     // (infinite for a single one), or the mean edge of the tets.
     virtual double spacing() const = 0;
     virtual bool whole_numbers() const = 0;
+    // Tells if a few whole numbers lie in pieces, as labels do, and not as noise or a rounded
+    // field.
+    virtual bool lies_in_pieces() const { return true; }
     // Returns what the file says of labels, maybe nothing, if all values are labels; else null.
     virtual const VolumeLabels* labels() const { return nullptr; }
     // Returns the share of the field from which on a value may be padding (find_padding()).
@@ -106,6 +109,7 @@ class VolumeField : public Field {
     ValueRange range() const override { return bricks_.whole; }
     double spacing() const override;
     bool whole_numbers() const override { return volume_.type() != SampleType::float32; }
+    bool lies_in_pieces() const override;
     const VolumeLabels* labels() const override;
     double least_padding_share() const override { return least_padding; }
     ValueDistribution distribution() const override;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "choice/field.h"
 #include "choice/open_scene.h"
@@ -288,6 +289,23 @@ TEST(Choose, DegenerateDataGetFiniteCamerasAndFunctions) {
     check(
         test::volume_of(cube, [](double i, double j, double k) { return i + j + k == 24 ? 1 : 0; }),
         "a single voxel");
+}
+
+// Noise of few values is a field, and pieces of few values are labels.
+TEST(Choose, TellsFewValuesOfNoiseFromLabels) {
+    const auto reason_of = [](const auto& value) {
+        const Volume volume =
+            test::volume_of<std::uint8_t>(test::grid_of({24, 24, 24}, Centering::node), value);
+        const MinMaxBricks bricks = measure_bricks(volume);
+        return chosen_text(choose(open_scene(), VolumeField(volume, bricks), {}).reasons);
+    };
+    std::mt19937 random(7);
+    const auto noise =
+        reason_of([&](double, double, double) { return static_cast<double>(random() % 20); });
+    const auto pieces = reason_of(
+        [](double i, double j, double k) { return static_cast<int>(i / 5 + j / 7) % 3 + (k > 9); });
+    EXPECT_EQ(noise.find("taken for labels"), noise.npos) << noise;
+    EXPECT_NE(pieces.find("4 whole numbers are taken for labels"), pieces.npos) << pieces;
 }
 
 }  // namespace

@@ -223,6 +223,18 @@ TEST(ConstantBorder, IsFoundInFilesWithoutReadingThemWhole) {
     EXPECT_LE(largest, most_read);
 }
 
+// A box keeps what it says. The border does not count unless the box has some of it.
+TEST(ConstantBorder, CountsOnlyInABoxThatHasSomeOfIt) {
+    const Volume volume = bordered<std::uint8_t>(255, Widths::all(5));
+    const Choices bare = chosen_for(volume);
+    Scene cropped = test::open_scene(), outside = cropped;
+    cropped.clip.box = ClipBox{glm::dvec3(0), glm::dvec3(edge - 1)};
+    outside.clip.box = ClipBox{glm::dvec3(-.5), glm::dvec3(edge - 1)};
+    // Extinctions follow from what the clip keeps, which is the same.
+    EXPECT_EQ(chosen_for(volume, cropped).scene.transfer_function, bare.scene.transfer_function);
+    EXPECT_NE(chosen_for(volume, outside).scene.transfer_function, bare.scene.transfer_function);
+}
+
 // The wanted opacity decides what would show, not the function that it replaces.
 TEST(ConstantBorder, IsCutAwayIfTheWantedOpacityShowsIt) {
     // A dark and a bright ball in flesh, which is transparent unless an opacity is wanted.
