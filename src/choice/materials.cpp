@@ -21,7 +21,11 @@ constexpr double most_clipped = .05;      // of the field, for values cut off at
 constexpr double clipped_peak = 3;        // times as many as in the bin beside them
 constexpr double surface_coherence = .5;  // least share of coherent places on a surface
 constexpr double homogeneous_slope = .6;  // largest slope of a hump, relative to its surfaces
-constexpr double flat_slope = .85;       // largest slope of any hump, relative to its surface below
+constexpr double flat_slope = .85;  // largest slope of any hump, relative to its surface below
+// Largest mean change to a neighbour, relative to the distance of two humps, of things with sharp
+// edges. If neighbours were of either hump by chance, half a difference along three axes would
+// be .6 of it.
+constexpr double most_change = .3;
 constexpr double foot = .1;              // share of its height at which the last hump ends
 constexpr double least_rest = .005;      // of the field, for what lies beyond the last hump
 constexpr double least_rest_width = .1;  // of the range, likewise
@@ -87,9 +91,10 @@ std::vector<std::size_t> prominent(const Shares& heights) {
 // Humps of a histogram, from which those are taken away that are no materials.
 class Humps {
   public:
-    Humps(const ValueHistogram& histogram, const Variation& variation)
+    Humps(const ValueHistogram& histogram, const Variation& variation, double spacing)
         : shares_(without_clipped(histogram.shares)),
           variation_(variation),
+          spacing_(spacing),
           heights_(smoothed(smoothed(shares_))),
           tops_(prominent(heights_)) {
         while (tops_.size() > 1 && take_away_rare()) {
@@ -135,9 +140,21 @@ class Humps {
     }
     double share(std::size_t i) const { return share_of_bins(begin(i), begin(i + 1)); }
 
+    // Tells if no value lies between hump i - 1 and hump i, and their places lie together: then
+    // they are things with sharp edges, whatever the noise in them. A single value has no noise: it
+    // may be padding.
+    bool apart(std::size_t i) const {
+        const std::size_t from = tops_[i - 1], to = tops_[i];
+        if (shares_[from > 0 ? from - 1 : from + 1] == 0 && shares_[from + 1] == 0) return false;
+        const double change = std::max(variation_.slope(from), variation_.slope(to)) * spacing_;
+        return heights_[begin(i)] == 0 &&
+               change < most_change * (variation_.value(to) - variation_.value(from));
+    }
+
     // Returns the bin of the steepest value between hump i - 1 and hump i, in the middle half; not
     // among the values of noise.
     std::size_t boundary(std::size_t i) const {
+        if (apart(i)) return std::midpoint(tops_[i - 1], tops_[i]);
         const std::size_t from = tops_[i - 1], to = tops_[i], quarter = (to - from) / 4;
         const std::size_t last = std::max(to - quarter, from + quarter);
         std::size_t first = std::min(std::max(from + quarter, noise_end_), to - 1),
@@ -183,7 +200,7 @@ class Humps {
     // their surroundings: the noise around an object.
     bool take_away_noise() {
         const std::size_t top = tops_[1];
-        if (variation_.coherence(top) >= surface_coherence) return false;
+        if (variation_.coherence(top) >= surface_coherence || apart(1)) return false;
         double steepest = 0;
         const std::size_t end = tops_.size() > 2 ? tops_[2] : heights_.size();
         for (std::size_t bin = tops_[0]; bin < end; ++bin)
@@ -207,7 +224,7 @@ class Humps {
     bool take_away_ripple() {
         for (std::size_t i = 1; i < tops_.size(); ++i) {
             const double beside = steepest_between(tops_[i - 1], tops_[i]);
-            if (variation_.slope(tops_[i]) < flat_slope * beside) continue;
+            if (variation_.slope(tops_[i]) < flat_slope * beside || apart(i)) continue;
             erase(i);
             return true;
         }
@@ -217,7 +234,7 @@ class Humps {
     // Takes away one of two humps without a surface between them: the rarer one.
     bool take_away_unbounded() {
         for (std::size_t i = 1; i < tops_.size(); ++i) {
-            if (variation_.coherence(boundary(i)) >= surface_coherence) continue;
+            if (apart(i) || variation_.coherence(boundary(i)) >= surface_coherence) continue;
             erase(share(i - 1) < share(i) && i > 1 ? i - 1 : i == 1 && share(0) < share(1) ? 0 : i);
             return true;
         }
@@ -246,6 +263,7 @@ class Humps {
 
     Shares shares_;
     const Variation& variation_;
+    const double spacing_;
     Shares heights_;
     std::vector<std::size_t> tops_;
     std::size_t noise_end_ = 0;  // first bin beyond humps that were noise
@@ -253,9 +271,10 @@ class Humps {
 
 }  // namespace
 
-Materials find_materials(const ValueHistogram& histogram, const Variation& variation) {
+Materials find_materials(const ValueHistogram& histogram, const Variation& variation,
+                         double spacing) {
     if (histogram.shares.size() < 8 || variation.empty()) return {};
-    return Humps(histogram, variation).materials();
+    return Humps(histogram, variation, spacing).materials();
 }
 
 }  // namespace lamina

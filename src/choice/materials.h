@@ -24,8 +24,10 @@ struct Materials {
 
 inline constexpr std::size_t most_materials = 4;
 
-// Finds materials. `histogram` has the variation's bins. The background is the lowest hump; the
-// result is empty if it holds less than a fifth of the field (docs/first-picture.md).
-Materials find_materials(const ValueHistogram& histogram, const Variation& variation);
+// Finds materials. `histogram` has the variation's bins; `spacing`: world distance between
+// neighbouring places. The background is the lowest hump; the result is empty if it holds less than
+// a fifth of the field (docs/first-picture.md).
+Materials find_materials(const ValueHistogram& histogram, const Variation& variation,
+                         double spacing);
 
 }  // namespace lamina

@@ -492,7 +492,8 @@ ChosenSurfaces choose_surfaces(const Padding& padding, bool whole_numbers,
         if (is_distance(values, around.variation)) return of_distance(values, around);
         const bool inverted = is_inverted(common, values);
         const Surroundings sought = inverted ? negated(around) : around;
-        const Materials found = find_materials(sought.histogram, sought.variation);
+        const Materials found =
+            find_materials(sought.histogram, sought.variation, subject.field->spacing());
         halves = values.distinct() > 2 && are_halves(found.materials);
         if (!found.materials.empty() && !halves)
             return of_materials(found, sought, inverted, values);

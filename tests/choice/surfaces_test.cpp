@@ -90,6 +90,29 @@ TEST(Surfaces, TwoMaterialsGetTwoColorsAndTheOuterOneDoesNotHideTheInner) {
     EXPECT_GT(opacity_along(function, inner_radius + 2, inner_radius - 2), .9);
 }
 
+// Things with sharp edges have no values between theirs and those of the air.
+TEST(Surfaces, OfSharpEdgesInNoiseLieBetweenTheHumps) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal(0, sigma);
+    const auto transfer_for = [&](const auto& is_bone) {
+        const Volume volume = test::volume_of<std::int16_t>(
+            test::grid_of({64, 64, 64}, Centering::node), [&](double i, double j, double k) {
+                return std::round((is_bone(i, j, k) ? bone : air) + normal(random));
+            });
+        const MinMaxBricks bricks = measure_bricks(volume);
+        return choose(picture_scene(), VolumeField(volume, bricks));
+    };
+    const auto [scene, reasons] = transfer_for(
+        [](double i, double j, double k) { return distance_to_middle(i, j, k) < outer_radius; });
+    EXPECT_NE(reasons[0].find("one material"), std::string::npos) << reasons[0];
+    const TransferFunction& function = *scene.transfer_function;
+    EXPECT_TRUE(function.transparent(-1e3, air + 4.5 * sigma));  // 1 sample in 150,000 is higher
+    EXPECT_GT(function.at((air + bone) / 2).extinction, 0);
+    // Samples of either value by chance have no surface.
+    const auto mixed = transfer_for([&](double, double, double) { return random() % 3 == 0; });
+    EXPECT_EQ(mixed.reasons[0].find("material"), std::string::npos) << mixed.reasons[0];
+}
+
 TEST(Surfaces, DoNotDependOnThePicture) {
     const Scan scan;
     const Scene small = choose(picture_scene(200, 150), scan.field).scene;
