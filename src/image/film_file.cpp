@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <string_view>
 
@@ -14,6 +13,7 @@
 #include "base/error.h"
 #include "image/apng.h"
 #include "image/ffmpeg.h"
+#include "image/picture.h"
 
 namespace lamina {
 namespace {
@@ -74,9 +74,7 @@ class OwnerMayWrite {
 }  // namespace
 
 const FilmFormat* film_format_of(const std::string& file) {
-    std::string suffix = std::filesystem::path(file).extension().string();
-    std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
-    const auto* const found = std::ranges::find(formats, suffix, &FilmFormat::suffix);
+    const auto* const found = std::ranges::find(formats, lower_suffix(file), &FilmFormat::suffix);
     return found == formats.end() ? nullptr : found;
 }
 

@@ -17,13 +17,6 @@ namespace lamina {
 
 namespace {
 
-std::string lower_suffix(const std::filesystem::path& path) {
-    std::string suffix = path.extension().string();
-    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return suffix;
-}
-
 template <typename Real>
 LoadedImage finite(std::string name, RgbaImage<Real> image) {
     require_finite(name, image);
@@ -49,6 +42,14 @@ Difference pixel_difference(const A& a, const B& b) {
 }
 
 }  // namespace
+
+std::string lower_suffix(const std::filesystem::path& path) {
+    std::string suffix = path.extension().string();
+    std::ranges::transform(suffix, suffix.begin(), [](unsigned char letter) {
+        return static_cast<char>(std::tolower(letter));
+    });
+    return suffix;
+}
 
 std::string refusal_of_suffix(const std::string& suffix) {
     const std::string lower = lower_suffix("picture" + suffix);

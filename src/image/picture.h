@@ -22,6 +22,9 @@ struct LoadedImage {
     std::optional<ImageColorSpace> space;  // given for EXR files only
 };
 
+// Returns the suffix of a file's name in lower case, as ".png"; empty if it has none.
+std::string lower_suffix(const std::filesystem::path& path);
+
 // Says why pictures are not written with this suffix, and which ones they may have.
 std::string refusal_of_suffix(const std::string& suffix);
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volume_files/foreign_files.h"
 
-#include <algorithm>
-#include <cctype>
 #include <string>
 #include <string_view>
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "image/picture.h"
 
 namespace lamina {
 namespace {
@@ -125,10 +124,7 @@ void expect_no_foreign_file(const std::filesystem::path& path, bool is_named) {
     // A scene may have any name.
     const std::size_t first = beginning.find_first_not_of(" \t\r\n");
     const bool is_scene = first != beginning.npos && beginning[first] == '{';
-    std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char letter) {
-        return static_cast<char>(std::tolower(letter));
-    });
+    const std::string extension = lower_suffix(path);
     for (const ForeignFormat& format : formats_not_read) {
         // A declaration of XML may stand in front of an element.
         const bool is_element = format.mark.starts_with('<') && beginning.starts_with('<');

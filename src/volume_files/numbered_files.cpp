@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -13,6 +12,7 @@
 
 #include "base/client.h"
 #include "base/error.h"
+#include "image/picture.h"
 
 namespace lamina {
 namespace {
@@ -150,11 +150,7 @@ void warn_of_series(const std::string& name, const char* kind,
     if (files.size() < 2) return;
     std::map<std::string, std::vector<NameParts>> series;
     for (const auto& file : files) {
-        std::string extension = file.extension().string();  // in any case
-        std::ranges::transform(extension, extension.begin(), [](unsigned char letter) {
-            return static_cast<char>(std::tolower(letter));
-        });
-        const NameParts parts(file.stem().string() + extension);
+        const NameParts parts(file.stem().string() + lower_suffix(file));  // .TIF as .tif
         series[parts.text].push_back(parts);
     }
     if (series.size() == files.size()) {
