@@ -113,7 +113,8 @@ class VolumeField : public Field {
     const VolumeLabels* labels() const override;
     double least_padding_share() const override { return least_padding; }
     ValueDistribution distribution() const override;
-    // Of whole numbers in memory. A voxel is kept unless a single plane cuts all of it away.
+    // Returns nothing unless the samples are whole numbers in memory. A voxel is kept unless a
+    // single plane cuts all of it away.
     std::optional<std::vector<double>> kept_values(const Clip& clip) const override;
     Variation variation(const ValueRange& measured, const Variation& bins) const override {
         return variation_of(volume_, inside(), measured, bins);

@@ -173,7 +173,8 @@ std::vector<std::string> left_out(int width, int height, const Annotations& want
     return keys;
 }
 
-// What is more important stays. A picture of 300 x 200 has room for all, as larger ones have.
+// Blocks that are more important stay. A picture of 300 x 200 has room for all, as larger ones
+// have.
 TEST(AnnotationLayer, LeavesOutWhatDoesNotFitInTheOrderOfImportance) {
     using Keys = std::vector<std::string>;
     for (const auto& [width, height] : {std::pair(300, 200), {480, 360}, {800, 600}, {1920, 1080}})
@@ -193,7 +194,7 @@ TEST(AnnotationLayer, LeavesOutWhatDoesNotFitInTheOrderOfImportance) {
     EXPECT_EQ(left_out(300, 200, texts), Keys{"texts.0"});
 }
 
-// What take_misfits() leaves lies in the picture, and no two of it overlap.
+// Blocks that take_misfits() leaves lie in the picture, and no two of them overlap.
 TEST(AnnotationLayer, WhatStaysDoesNotOverlap) {
     for (int width = 20; width <= 400; width += 20) {
         Scene scene = plain_scene();

@@ -172,7 +172,7 @@ TEST(ConstantBorder, IsSaidAndKeptIfAsked) {
         chosen_for(volume, test::open_scene(), adjustments_of(words, ImageColorSpace::linear));
     EXPECT_FALSE(said(kept));
     EXPECT_TRUE(kept.scene.clip.keeps_all());
-    // What the scene itself says stays.
+    // A clip and a transfer function that the scene itself has stay.
     Scene given = test::open_scene();
     given.transfer_function = TransferFunction::linear({{0, {}}, {255, {glm::dvec3(1), 1}}});
     EXPECT_TRUE(chosen_for(volume, given).scene.clip.keeps_all());

@@ -69,7 +69,7 @@ TEST(Pipeline, IntegratesVoxelsExactlyAndUnlit) {
                  {"s: render.slice.classification: found \"preintegrated\"", "\"nearest\""});
 }
 
-// What light costs is measured without a trace in the picture that is drawn next.
+// Measuring what light costs leaves no trace in the picture that is drawn next.
 TEST(Pipeline, MeasuresWhatLightCosts) {
     nlohmann::json document = minimal_scene();
     document["image"] = {{"width", 48}, {"height", 40}};
