@@ -42,7 +42,7 @@ class Camera:
     @classmethod
     def look_at(cls, eye: Sequence[float], center: Sequence[float], up: Sequence[float] = (0, 1, 0), *,
                 fov_y: float = 40, height: float | None = None) -> Camera:
-        """A camera at ``eye`` that looks at ``center``: perspective, or orthographic where ``height`` is given."""
+        """A camera at ``eye`` that looks at ``center``: perspective, or orthographic if ``height`` is given."""
         places = [_conversion.triple(name, place) for name, place in (("eye", eye), ("center", center), ("up", up))]
         if height is None:
             return cls(places[0], places[1], places[2], fov_y)
@@ -51,7 +51,7 @@ class Camera:
     @classmethod
     def orbit(cls, data: Volume | Mesh, azimuth: float = 0, elevation: float = 0, *, fov_y: float = 40) -> Camera:
         """Looks at the data's box from outside, so that all of it is seen: from its +z side at azimuth and elevation 0,
-        to the right (+x) and up (+y) where they grow. Degrees.
+        to the right (+x) and up (+y) as they grow. Degrees.
 
         >>> lamina.Camera.orbit(lamina.Volume(np.zeros((9, 9, 9), np.uint8)), azimuth=90).center
         (4.0, 4.0, 4.0)

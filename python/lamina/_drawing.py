@@ -25,7 +25,7 @@ def render(data: Any, transfer_function: Any = None, *, context: str = "auto", t
     the names of scene files (``Keywords``): ``camera``, ``size``, ``max_error``, ``method``, ``lighting``, ``clip``, ...
     or are the command line's words: ``up``, ``view``, ``azimuth``, ``elevation``, ``zoom``, ``light``, ``clip``, ``crop``,
     ``opacity``, ``preset``, ``cmap``, ``clim`` (``--range``), ``density``.
-    ``context``, ``threads``, ``only_below``: as for ``Session``, which is quicker where several pictures are drawn of the
+    ``context``, ``threads``, ``only_below``: as for ``Session``, which is quicker if several pictures are drawn of the
     same data. ``progress(activity, share)``: hears how far it is.
 
     Raises ``lamina.Error`` for bad data and scenes, ``TypeError`` and ``ValueError`` for arguments of the wrong form,

@@ -49,7 +49,7 @@ def read(file: Path, *, only_below: Path | None = None, **selection: Any) -> Vol
 
 
 def info(file: Path, *, only_below: Path | None = None, **selection: Any) -> dict[str, Any]:
-    """What a file has, as ``lamina info --json`` says it: docs/info.md explains every key.
+    """Describes a file as ``lamina info --json`` does: docs/info.md explains every key.
 
     ``arrays``, ``channels``, ``times``, ``levels`` and ``labels`` list, with their names, what there is to choose from;
     ``size``, ``type``, ``range``, ``spacing``, ``origin``, ``unit`` and others describe the part that ``selection``

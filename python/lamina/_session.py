@@ -28,9 +28,9 @@ class Session:
     """Draws a scene again and again while camera, size, transfer function and settings change, and does each time only
     what the change makes necessary.
 
-    ``data``, ``transfer_function`` and keywords: as ``Scene`` lists them. ``context``: ``"auto"`` (a GPU where there is
+    ``data``, ``transfer_function`` and keywords: as ``Scene`` lists them. ``context``: ``"auto"`` (a GPU if there is
     one, else the cpu engine), ``"cpu"`` (that engine), ``"egl"`` or ``"osmesa"``. ``threads``: at most so many,
-    0: one for each processor. ``many_frames``: choices may take longer where they make each picture quicker.
+    0: one for each processor. ``many_frames``: choices may take longer if they make each picture quicker.
     ``only_below``: a folder; files that are not below it with all links followed, whoever names them, are refused.
 
     What is automatic is chosen for the first picture and kept; ``choose_again()`` chooses it again. Sessions of several
@@ -166,7 +166,7 @@ class Session:
     def turntable(self, views: int = 36, progress: Progress | None = None) -> Turntable:
         """Pictures from all around: ``views`` of them, the camera turned about its ``up`` by 360 / ``views`` degrees
         from one to the next, the first from where it is. In a notebook the result moves; ``save`` makes a film of it.
-        Afterwards the camera is where it was, written out where it was automatic."""
+        Afterwards the camera is where it was, written out if it was automatic."""
         if views < 1:
             raise ValueError(f"views: found {views!r}, expected 1 or more")
         camera, pictures = self.camera, []

@@ -23,8 +23,8 @@ class Study(Mapping[str, np.ndarray]):
     """The results of a study: columns by name, with one entry a run, as ``results.csv`` has them.
 
     ``scene``, every swept key, ``frame_ms_median`` (also ``_min``, ``_max``, ``still_ms_...``, ``first_ms``), ``linf``,
-    ``l1``, ``l2`` (in 1/255, also of each channel), ``bytes``, ``pareto``, ``failed``, ...: float64 (NaN where a run has
-    none), bool or text. ``findings``, ``failures``, ``messages``: for people. ``folder``: where the report is, None where
+    ``l1``, ``l2`` (in 1/255, also of each channel), ``bytes``, ``pareto``, ``failed``, ...: float64 (NaN if a run has
+    none), bool or text. ``findings``, ``failures``, ``messages``: for people. ``folder``: where the report is, None if
     none was named.
     """
 

@@ -15,7 +15,7 @@ class TransferFunction:
     """Maps a scalar value to colour and extinction, linearly between points and constant outside.
 
     ``points``: ``(value, color, extinction)`` in order of value; two points at one value make a step. A colour is a
-    triple (linear light, or display values where the scene's ``color_space`` is ``"display"``), a text like
+    triple (linear light, or display values if the scene's ``color_space`` is ``"display"``), a text like
     ``"#1a800d"`` or ``"tomato"`` (display values), or ``{"srgb": [r, g, b]}``. Extinction is per world unit, >= 0: a
     homogeneous box of length s has the opacity ``1 - exp(-extinction * s)``.
 
@@ -58,7 +58,7 @@ class TransferFunction:
                  opacity: Iterable[tuple[float, float]] | None = None, unit_length: float = 1) -> TransferFunction:
         """The colours of a map (``lamina.colormaps``, or the file of a ParaView preset), stretched over ``range``
         (lo, hi), else over the range of the data. ``extinction`` or ``opacity``: points ``(value, number)``; without
-        either the map's own opacities count, where it has them.
+        either the map's own opacities count, if it has them.
 
         >>> lamina.TransferFunction.colormap("viridis", range=(0, 1), extinction=[(0, 0), (1, 8)])
         <lamina.TransferFunction colormap 'viridis', 2 points from 0 to 1>
@@ -79,7 +79,7 @@ class TransferFunction:
                       extinction: Iterable[tuple[float, float]] | None = None,
                       opacity: Iterable[tuple[float, float]] | None = None,
                       unit_length: float = 1) -> TransferFunction:
-        """The colours, and the opacities where it has any, of a ParaView preset (a JSON file). Without ``range`` a preset
+        """The colours, and the opacities if it has any, of a ParaView preset (a JSON file). Without ``range`` a preset
         keeps its own values; the rest is as in ``colormap``."""
         return cls.colormap(file, range=range, extinction=extinction, opacity=opacity, unit_length=unit_length)
 

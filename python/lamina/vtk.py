@@ -42,7 +42,7 @@ __all__ = ["Held", "hold", "scene"]
 def scene(renderer: Any) -> Scene:
     """The scene of a ``vtkRenderer`` with one visible volume: data, transfer functions, camera, size, background.
 
-    The data are shared with VTK where they can be. Raises ``lamina.Error`` for what lamina does not draw as VTK means it.
+    The data are shared with VTK if they can be. Raises ``lamina.Error`` for what lamina does not draw as VTK means it.
 
     >>> import vtk                                                                         # doctest: +SKIP
     >>> lamina.render(lamina.vtk.scene(renderer)).save("as_vtk_means_it.png")              # doctest: +SKIP

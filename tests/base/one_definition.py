@@ -48,7 +48,7 @@ def type_of(parameter):
 
 
 def parts_of(text):
-    """What stands between the commas of a list of parameters."""
+    """Splits a list of parameters at its commas."""
     parts, depth = [""], 0
     for letter in text:
         depth += (letter in "<([{") - (letter in ">)]}")

@@ -76,7 +76,7 @@ def scene_of(volume, low, high, box, opacity, unit_length):
 
 
 def lamina_codes(lamina, scene_file, picture):
-    """What a PNG of lamina's holds, read by VTK."""
+    """Reads a PNG of lamina's by VTK."""
     import vtk
     from vtk.util import numpy_support
     run(lamina, "render", scene_file, "-o", picture, "--quiet")

@@ -9,7 +9,7 @@ def fenced(text, language):
 
 
 def command_lines(text):
-    """Of all blocks, fenced or indented: lines that call lamina, continued ones joined, without comments."""
+    """Lines of all blocks, fenced or indented, that call lamina: continued ones joined, without comments."""
     joined = re.sub(r"\\\n\s*", " ", text)
     fences = "\n".join(re.findall(r"^```(?:sh|text)?\n(.*?)^```$", joined, re.MULTILINE | re.DOTALL))
     outside = re.sub(r"^```.*?^```$", "", joined, flags=re.MULTILINE | re.DOTALL)

@@ -17,7 +17,7 @@ PHONE, DESK = 360, 1280
 
 
 class Links(html.parser.HTMLParser):
-    """What a page links to, what it loads, and the places in it."""
+    """Collects the links of a page, what it loads, and the places in it."""
 
     def __init__(self, page):
         super().__init__()
@@ -50,7 +50,7 @@ def faults_of_links(site):
                 yield f"{page.name}: no place {target}"
 
 
-# What is wider than the window must scroll inside of itself.
+# Blocks wider than the window must scroll inside of themselves.
 LOOK = """
 const wide = document.scrollingElement.scrollWidth - document.documentElement.clientWidth;
 const missing = [...document.images].filter(image => !image.naturalWidth).map(image => image.src);

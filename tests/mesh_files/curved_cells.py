@@ -92,7 +92,7 @@ def write(name, places, cells, volume=0., boundary=0, turned=0, made=(), values=
 
 
 def write_apart(name, places, cells, volume, boundary):
-    """The same cells, each of which has points of its own, in random numbers."""
+    """Gives each cell points of its own, in random numbers."""
     own = [(i, number) for i, (kind, corners) in enumerate(cells)
            for number in sorted({n for face in corners for n in face} if kind == 42 else corners)]
     RNG.shuffle(own)

@@ -48,7 +48,7 @@ def test_it_sees_measures_and_cures_the_problem(executed):
     said = "".join("".join(output.get("text", [])) for output in outputs_of(executed[0]))
     errors = [float(line.split("linf")[1].split(",")[0]) for line in said.splitlines() if "<lamina.Comparison" in line]
     rough, cured, tree = errors
-    # What was asked for: .5 / 255, and 1 / 255 of the tree.
+    # Bounds that were asked for: .5 / 255, and 1 / 255 of the tree.
     assert rough > 20 and cured < 0.5 and tree < 1
     assert "the same: True" in said
 

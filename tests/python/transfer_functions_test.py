@@ -8,7 +8,7 @@ import lamina
 
 
 def opacity_through(function, value, length):
-    """Of a homogeneous box of this value and thickness, seen straight on."""
+    """Opacity of a homogeneous box of this value and thickness, seen straight on."""
     box = lamina.Volume(np.full((2, 2, 2), value, np.float32), spacing=(length, length, length))
     camera = lamina.Camera.look_at((length / 2, length / 2, 2 * length), (length / 2,) * 3, height=length / 2)
     return lamina.trace(box, function, camera=camera, size=(1, 1)).array[0, 0, 3]

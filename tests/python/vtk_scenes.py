@@ -101,7 +101,7 @@ def from_inside_the_margin(renderer):
 
 
 def place_of(rgb):
-    """Where the light of a picture is: its centre of gravity, in pixels."""
+    """Centre of gravity of a picture's light, in pixels."""
     weight = rgb.sum(axis=2)
     rows, columns = np.mgrid[:weight.shape[0], :weight.shape[1]] + 0.5
     return np.array([(weight * columns).sum(), (weight * rows).sum()]) / weight.sum()

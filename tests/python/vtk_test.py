@@ -70,7 +70,7 @@ def test_a_volume(renderer):
     assert held.norms == (held.linf, held.l1, held.l2)
     assert np.allclose(held.shown[0, 0], (0.1, 0.2, 0.3), atol=1e-12)
     assert held._repr_png_().startswith(b"\x89PNG")
-    # What a window shows has codes: the background, the volume's picture and their sum are rounded, half a code each.
+    # Windows show codes: the background, the volume's picture and their sum are rounded, half a code each.
     codes = lamina.vtk.hold(renderer, precise=False)
     assert np.allclose(codes.vtk * 255, np.round(codes.vtk * 255), atol=1e-9)
     assert codes.l2 < held.l2 + 1 and np.abs(codes.vtk - held.vtk).max() < 1.51 / 255

@@ -79,7 +79,7 @@ def test_opacity_can_be_numbers(blob):
 
 
 class Map:
-    """What lamina asks of matplotlib's colour maps."""
+    """Stands for one of matplotlib's colour maps: has what lamina asks of them."""
 
     def __init__(self, colors):
         self.colors, self.N = np.asarray(colors, float), len(colors)

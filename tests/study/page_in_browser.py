@@ -60,7 +60,7 @@ class PageInBrowser(unittest.TestCase):
             f"return [...arguments[0].querySelectorAll(arguments[1])].map((node) => {value})", section, selector)
 
     def order(self, section):
-        """Of the rows that show."""
+        """Returns it of the rows that show."""
         return self.collect(section, "tr.run:not([hidden])", "node.dataset.run")
 
     def messages(self):

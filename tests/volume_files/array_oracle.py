@@ -53,7 +53,7 @@ def samples(dtype, shape=(5, 6, 7)):
     if dtype.kind == "b":
         return RNG.integers(0, 2, shape).astype(dtype)
     info = np.iinfo(dtype)
-    # What float32 holds, in all bits of the type.
+    # Values that float32 holds, in all bits of the type.
     return (RNG.integers(max(info.min, -2**20), min(info.max, 2**20), shape, endpoint=True)).astype(dtype)
 
 

@@ -12,7 +12,7 @@ CLASSIFICATIONS = ["post", "preintegrated"]
 
 
 def ensure_vtk():
-    """Runs this program again with Debian's python3 where this one has no VTK, and where there is no display inside
+    """Runs this program again with Debian's python3 if this one has no VTK, and if there is no display inside
     xvfb-run: there GL is Mesa's llvmpipe."""
     debian = "/usr/bin/python3"
     try:

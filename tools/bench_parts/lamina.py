@@ -21,7 +21,7 @@ class Lamina:
         self.folder = pathlib.Path(folder)
 
     def run(self, *arguments, accepted=(0,)):
-        """What is printed; ends the caller at an exit code that is not accepted."""
+        """Returns what is printed; ends the caller at an exit code that is not accepted."""
         command = [str(self.program), *map(str, arguments)]
         left = None if self.deadline is None else max(0, self.deadline - time.monotonic())
         try:

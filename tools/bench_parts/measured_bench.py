@@ -52,7 +52,7 @@ class Bench:
         return ["--size", f"{width}x{height}"]
 
     def whole(self, arguments, size):
-        """Arguments of a run; the cpu engine draws and `size` is drawn where they do not say otherwise."""
+        """Arguments of a run; the cpu engine draws and `size` is drawn if they do not say otherwise."""
         context = [] if "--context" in arguments else ["--context", "cpu"]
         return [*([] if "--size" in arguments else self.pixels(size)), *context, *arguments]
 

@@ -9,7 +9,7 @@ TYPES = {"uint8": "u1", "uchar": "u1", "unsigned char": "u1", "uint16": "<u2", "
 
 
 def spacings_of(fields):
-    """Edges of a voxel; None where the axes are not those of the world."""
+    """Edges of a voxel; None if the axes are not those of the world."""
     if "space directions" not in fields:
         return [float(spacing) for spacing in fields.get("spacings", "1 1 1").split()]
     rows = [[float(x) for x in row.strip("()").split(",")] for row in fields["space directions"].split()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The standard set: shipped scenes, those with real data where LAMINA_DATA has these."""
+"""The standard set: shipped scenes, those with real data if LAMINA_DATA has these."""
 import json
 import os
 import pathlib
@@ -17,7 +17,7 @@ class BenchScene:
             raise SystemExit(f"bench: {path}: {error}")
 
     def data_file(self):
-        """The file of the volume or the mesh; None where the volume is generated."""
+        """The file of the volume or the mesh; None if the volume is generated."""
         source = self.json.get("mesh") if isinstance(self.json.get("mesh"), str) else self.json.get("volume")
         return self.path.parent / os.path.expandvars(source) if isinstance(source, str) else None
 

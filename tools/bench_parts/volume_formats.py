@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """One volume of int16 in many file formats, written by the formats' own libraries (numpy, nibabel, tifffile, zarr,
-h5py, pydicom, VTK), not compressed but where a name says so."""
+h5py, pydicom, VTK), not compressed unless a name says so."""
 import gzip
 import importlib
 

@@ -80,7 +80,7 @@ def mesh_property(scene):
 
 
 def shade(scene, properties):
-    """Light as VTK has it, where the scene has a headlight alone."""
+    """Light as VTK has it, if the scene has a headlight alone."""
     lighting = scene.json.get("lighting")
     if lighting is None:
         return properties
@@ -177,7 +177,7 @@ class Window:
 
 
 def volume_window(scene, size, steps_a_voxel):
-    """The GPU ray caster, at its default of one sample a unit (a voxel, where the spacing is 1) for steps_a_voxel 1."""
+    """The GPU ray caster, at its default of one sample a unit (a voxel, if the spacing is 1) for steps_a_voxel 1."""
     samples, sizes, spacings = nrrd.read(scene.data_file())
     image, mapper = vtk.vtkImageData(), vtk.vtkOpenGLGPUVolumeRayCastMapper()
     image.SetDimensions(sizes)

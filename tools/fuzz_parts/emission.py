@@ -44,7 +44,7 @@ def halved(pieces):
 
 
 def part_of(pieces, optics):
-    """Number of the part of the transfer function; -1 where a piece reaches over a knot."""
+    """Number of the part of the transfer function; -1 if a piece reaches over a knot."""
     low, high = pieces.scalars.min(1), pieces.scalars.max(1)
     below = numpy.searchsorted(optics.knots, low, side="right")
     above = numpy.searchsorted(optics.knots, high, side="left")

@@ -57,7 +57,7 @@ class Judge:
             self.optics.brightest = lights.brightest(self.made.scene["lighting"], self.optics.brightest)
 
     def choose_transfer_function(self):
-        """Takes the one that lamina chooses; False where it chooses none."""
+        """Takes the one that lamina chooses; False if it chooses none."""
         chosen = self.program.chosen_scene("chosen_scene.json")
         if chosen is None:
             return False
@@ -143,7 +143,7 @@ class Judge:
         doubt = numpy.minimum(doubt.reshape(len(shifts), count).max(0), self.optics.brightest)
         spread = numpy.abs(colors - colors[0]).max((0, 2))
         converged = numpy.abs(colors - coarser).max((0, 2))
-        # Beside these, double precision: some 1e-10 of full scale where a peak is 1e-4 of the values' range wide.
+        # Beside these, double precision: some 1e-10 of full scale if a peak is 1e-4 of the values' range wide.
         bound = (traced.stats["error_estimate"] + 4 * spread + 4 * converged + doubt + 1e-9 * self.optics.brightest
                  + self.optics.off)
         error = numpy.abs(traced.picture[pixels[1], pixels[0]] - colors[0]).max(1)
@@ -278,7 +278,7 @@ class Judge:
                                             f"render.slice.samples={plan['slabs']}"])
         if full is not None:
             bound = self.left_out(plan) + (CURVES / 255 if "smooth_points" in names else 0)
-            # Light is cut at other places where other segments begin.
+            # Light is cut at other places if other segments begin.
             bound += self.max_error / 255 if self.lit else 0
             error = numpy.abs(drawn.picture - full.picture).max(2)
             if plan["classification"] == "exact" and error.max() > bound:

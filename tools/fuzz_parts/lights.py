@@ -10,7 +10,7 @@ def light(dice):
 
 
 def make(dice, span, length):
-    """`span`: lowest and highest value, none where all are NaN; `length` of the data in world units."""
+    """`span`: lowest and highest value, none if all are NaN; `length` of the data in world units."""
     lighting = {}
     if dice.chance(0.6):
         lighting["ambient"] = dice.pick(0, 1, dice.between(0, 1))

@@ -51,7 +51,7 @@ class Program:
         self.findings.append(Finding(kind, text, times))
 
     def render(self, name, arguments, suffix=".exr", scene="scene.json", least=False, patience=1):
-        """None where it ended in an error, said as it should be or not. least: on one processor, with the least
+        """None if it ended in an error, said as it should be or not. least: on one processor, with the least
         instructions; patience: how many times the usual seconds it may take."""
         seconds = patience * self.seconds
         picture, stats = self.folder / f"{name}{suffix}", self.folder / f"{name}.json"
@@ -87,7 +87,7 @@ class Program:
         return found
 
     def chosen_scene(self, name):
-        """The scene with what lamina chooses for it; None where it ended in an error."""
+        """The scene with what lamina chooses for it; None if it ended in an error."""
         command = [str(self.lamina), "scene", "scene.json", "-o", name]
         self.commands.append(shlex.join(command))
         done = subprocess.run(command, cwd=self.folder, capture_output=True, timeout=WAITING * self.seconds,

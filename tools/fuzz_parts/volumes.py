@@ -33,7 +33,7 @@ class Volume:
         return numpy.array([self.to_world([(low, high)[(c >> a) & 1][a] for a in range(3)]) for c in range(8)])
 
     def finite_range(self):
-        """None where no sample is finite."""
+        """None if no sample is finite."""
         values = self.samples.astype(float)
         values = values[numpy.isfinite(values)]
         return (values.min(), values.max()) if values.size else None

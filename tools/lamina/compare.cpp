@@ -99,7 +99,7 @@ void add_compare(CLI::App& app, int& exit_code) {
                      "With --diff: darkest at this difference, in 1/255, instead of at the largest")
         ->option_text("DIFFERENCE");
     verb->add_option("--max-linf", options->max_linf,
-                     "Exit with code 3 where Linf, the largest difference of any channel in any "
+                     "Exit with code 3 if Linf, the largest difference of any channel in any "
                      "pixel, in 1/255, is larger")
         ->option_text("LINF")
         ->check([](const std::string& text) { return text.empty() ? "expected a number" : ""; });

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What oracles share: values, axes, and the list of what each file holds."""
+"""Parts that oracles share: values, axes, and the list of what each file holds."""
 import json
 import math
 import os
@@ -69,7 +69,7 @@ class Cases:
 
 
 def rotation(a, b, c):
-    """Of three angles about z, y, x."""
+    """Rotation matrix for three angles about z, y, x."""
     def turn(i, j, angle):
         matrix = np.eye(3)
         matrix[i, i] = matrix[j, j] = math.cos(angle)

@@ -163,7 +163,7 @@ def bad_places(cases, nib):
 
 
 def one_head(cases, nib, affine):
-    """The same samples at the same places, as NIfTI (RAS), NRRD and MetaImage (LPS)."""
+    """Writes samples at the same places as NIfTI (RAS), NRRD and MetaImage (LPS)."""
     array = values_of("int16", (6, 5, 4), seed=50)
     nib.save(nib.Nifti1Image(array, affine), cases.path("head.nii.gz"))
     steps, origin = to_lps(nib.load(cases.path("head.nii.gz")).affine)

@@ -14,7 +14,7 @@ def numpy_files(cases):
                 stored = array.astype(array.dtype.newbyteorder(order))
                 np.save(cases.path(file), np.asfortranarray(stored) if fortran else stored)
                 cases.add(file, array)
-        # What the type promises is more than what is there.
+        # The type promises more than what is there.
         few = np.arange(120).reshape(4, 5, 6).astype(name)
         np.save(cases.path(f"few_{name}.npy"), few)
         cases.add(f"few_{name}.npy", few)

@@ -57,7 +57,7 @@ def picture_files(cases):
 
 
 def beside_pixels(cases, grey, smooth, stack):
-    """What pictures say that is not used: the distances of pixels, transparent colours, an orientation."""
+    """Writes pictures that say what is not used: the distances of pixels, transparent colours, an orientation."""
     from PIL import Image
     turned = Image.Exif()
     turned[274] = 6

@@ -281,7 +281,7 @@ PEAK = scene([(120, [1, 0.75, 0.3], 0), (123, [1, 0.75, 0.3], 120), (126, [1, 0.
 
 
 def render(lamina, what, path, settings):
-    """A picture of a scene, with settings of render.slice as one object, or the tracer's where there are none."""
+    """A picture of a scene, with settings of render.slice as one object, or the tracer's if there are none."""
     chosen = {"method": "trace"} if settings is None else settings
     source = path.with_suffix(".json")
     source.write_text(json.dumps({**what, "render": chosen}))
