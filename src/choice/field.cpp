@@ -431,6 +431,15 @@ std::optional<BorderlessField> Field::without_border() const {
     return std::nullopt;
 }
 
+bool Field::cut_away_by(const Clip& clip) const {
+    if (clip.keeps_all()) return false;
+    const auto box = corners();
+    MeshData tets;
+    tets.points.assign(box.begin(), box.end());
+    tets.tets = {{0, 1, 2, 4}, {3, 1, 2, 7}, {5, 1, 4, 7}, {6, 2, 4, 7}, {1, 2, 4, 7}};
+    return cut_mesh(std::move(tets), half_spaces(clip)).tets.empty();
+}
+
 double diagonal_of(const Field& field) {
     const auto corners = field.corners();
     return glm::distance(corners.front(), corners.back());

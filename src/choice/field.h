@@ -83,6 +83,8 @@ class Field {
     virtual std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
                                                  double least, const Clip& clip = {}) const = 0;
     virtual std::array<glm::dvec3, 8> corners() const = 0;
+    // Tells whether a clip keeps nothing of the data, or of their box if this has more.
+    virtual bool cut_away_by(const Clip& clip) const;
 
     // Returns the data without the border of constant values around them; nothing if they have
     // none.
@@ -158,6 +160,9 @@ class MeshField : public Field {
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function, double least,
                                          const Clip& clip = {}) const override;
     std::array<glm::dvec3, 8> corners() const override;
+    bool cut_away_by(const Clip& clip) const override {
+        return !clip.keeps_all() && kept_by(clip) == nullptr;
+    }
     std::vector<double> optical_depths(const Scene& scene) const override;
 
   private:
