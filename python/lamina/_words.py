@@ -10,6 +10,7 @@ import numpy as np
 
 from . import _lamina
 from ._conversion import shown
+from ._errors import Error
 
 # Keywords that are words, with the names that the library has for them.
 WORDS = {"azimuth": "azimuth", "elevation": "elevation", "zoom": "zoom", "density": "density", "up": "up", "view": "view",
@@ -45,6 +46,8 @@ def _plain_word(name: str, value: Any) -> Any:
         return float(value)
     if name == "clim":
         return ",".join(_number(name, number) for number in _pair(name, value))
+    if isinstance(value, str) and not value:
+        raise ValueError(f"{name}: found '', expected a word")
     if name == "crop" and not isinstance(value, str):
         return _box(value)
     if name == "light" and value is True:
@@ -97,19 +100,39 @@ def _colormap(value: Any) -> str:
     if isinstance(value, os.PathLike):
         return str(os.fspath(value))
     if isinstance(value, str):
-        if value in _lamina.colormap_names() or os.path.exists(value):
+        names = _lamina.colormap_names()
+        if value in names or value.startswith("{") or os.path.exists(value):
             return value
         try:
             import matplotlib  # type: ignore[import]
+        except ImportError:
+            raise Error(f"cmap: found {shown(value)}, expected {', '.join(names)}, a file, or a name of matplotlib, which "
+                        "is not installed") from None
+        try:
             value = matplotlib.colormaps[value]
-        except (ImportError, AttributeError, KeyError):
+        except (AttributeError, KeyError):
             return str(value)  # the library says which names there are
     count = getattr(value, "N", None)
-    if not callable(value) or not isinstance(count, int) or count < 1:
+    if not callable(value) or not isinstance(count, (int, np.integer)) or count < 1:
         raise TypeError(f"cmap: found {shown(value)}, expected a name, a file or a matplotlib colormap")
     # Many colours are points of lines between them; few are bands, as matplotlib shows them.
-    colors = np.asarray(value(np.arange(count)), dtype=float)[:, :3].tolist()
+    colors = _colors(value, int(count))
     rows = [[(i + 0.5) / count, *color] for i, color in enumerate(colors)]
     if count <= MOST_BANDS:
         rows = [[edge / count, *color] for i, color in enumerate(colors) for edge in (i, i + 1)]
     return json.dumps({"ColorSpace": "RGB", "RGBPoints": [number for row in rows for number in row]})
+
+
+def _colors(colormap: Any, count: int) -> list[list[float]]:
+    """All colours of a matplotlib map: three numbers from 0 to 1 each."""
+    try:
+        colors = np.asarray(colormap(np.arange(count)), dtype=float)
+    except Exception as error:
+        raise TypeError(f"cmap: {shown(colormap)} gives no colours: {error}") from error
+    if colors.shape not in ((count, 3), (count, 4)):
+        raise TypeError(f"cmap: {shown(colormap)} gives an array of shape {colors.shape}, expected ({count}, 4) for its "
+                        f"{count} colours")
+    wrong = colors[:, :3][~((colors[:, :3] >= 0) & (colors[:, :3] <= 1))]
+    if len(wrong) > 0:
+        raise ValueError(f"cmap: {shown(colormap)} gives {wrong[0]:g} in a colour, expected numbers from 0 to 1")
+    return colors[:, :3].tolist()
