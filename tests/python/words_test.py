@@ -163,7 +163,11 @@ def test_mistakes_are_named(blob):
     for words, message in (({"clim": 3}, "clim: found 3, expected two numbers"), ({"up": 3}, "up: found 3, expected a word"),
                            ({"zoom": "big"}, "zoom: found 'big', expected a number"),
                            ({"crop": (1, 2)}, "crop: found"), ({"opacity": [1]}, "opacity: found"),
-                           ({"opacity": [(1, 2, 3), (1, 2, 3)]}, "opacity: found"), ({"cmap": 3}, "cmap: found 3")):
+                           ({"opacity": [(1, 2, 3), (1, 2, 3)]}, "opacity: found"), ({"cmap": 3}, "cmap: found 3"),
+                           ({"light": False}, "light: found False, expected a word; lighting=False draws without light"),
+                           ({"camera": 3}, "camera: found 3, expected a lamina.Camera, a dictionary"),
+                           ({"transfer_function": "viridis"}, "found 'viridis', expected a lamina.TransferFunction"),
+                           ({"transfer_function": [(0, "black", 0)]}, "expected a lamina.TransferFunction")):
         with pytest.raises(TypeError, match=message):
             drawn(blob, **words)
     for word in ("view", "opacity", "crop", "cmap"):
