@@ -317,8 +317,8 @@ std::string choose_camera(const Adjustments& adjustments, const Field& field, bo
     ViewTurn turn = turn_to(adjustments.side.value_or(ViewSide::iso), from);
     turn.azimuth += adjustments.turn.azimuth;
     turn.elevation += adjustments.turn.elevation;
-    const PictureMargins margins = annotation_margins(
-        scene, annotated_data(field, scene.annotations.labels.has_value(), scene.clip));
+    const PictureMargins margins =
+        annotation_margins(scene, annotated_data(field, scene.annotations, scene.clip));
     scene.camera = fitted_camera(points_to_fit(scene, field, per_world_unit), from.front, turn,
                                  scene.width, scene.height, adjustments.all_around, margins);
     if (!adjustments.side) return from.reason;
