@@ -123,6 +123,10 @@ AtomicFile::AtomicFile(std::filesystem::path path) : OutputFile(without_links(st
     }
     if (path_.filename().string().size() > NAME_MAX) give_up(ENAMETOOLONG);
     if (belongs_to_another(path_)) give_up(EPERM);
+    if (const auto folder = path_.parent_path(); !folder.empty() && !is_there(folder)) {
+        throw WriteError(fmt::format("{}: cannot write: there is no folder {}", path_.string(),
+                                     folder.string()));
+    }
     if (!open_nameless()) open_named();
     keep_mode();
     open_stream();
