@@ -137,6 +137,8 @@ TEST_F(WordsRun, OptionsThatAreWrongAreNamed) {
     EXPECT_NE(lamina_run({"rendr"}).err.find("rendr: unknown verb, did you mean \"render\"?"),
               std::string::npos);
     EXPECT_NE(lamina_run({}).err.find("expected a verb, one of compare, "), std::string::npos);
+    EXPECT_NE(lamina_run({"--hepl"}).err.find("--hepl: expected a verb, one of compare, "),
+              std::string::npos);
     expect({"--zoom"}, "--zoom: expected a value after it");
     expect({"--zoom", "two"}, "--zoom: found two, expected a number (");
     expect({"--opacity", ""}, "--opacity: found '', expected a value (");

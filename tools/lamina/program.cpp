@@ -100,11 +100,13 @@ bool has_display() {
 std::vector<char*> with_verb(const CLI::App& app, int argc, char** argv) {
     static char view[] = "view";
     std::vector<char*> arguments(argv, argv + argc);
-    if (argc < 2) {
-        throw UsageError(fmt::format("expected a verb, one of {} ({} --help shows the usage)",
+    const bool is_option = argc > 1 && argv[1][0] == '-';
+    if (argc < 2 || (is_option && app.get_option_no_throw(argv[1]) == nullptr)) {
+        throw UsageError(fmt::format("{}expected a verb, one of {} ({} --help shows the usage)",
+                                     is_option ? std::string(argv[1]) + ": " : "",
                                      fmt::join(verbs_of(app), ", "), app.get_name()));
     }
-    if (argv[1][0] == '-') return arguments;
+    if (is_option) return arguments;
     const std::string first = argv[1];
     bool can_view = false;
     for (const CLI::App* const verb : app.get_subcommands({})) {
