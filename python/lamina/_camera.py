@@ -57,7 +57,9 @@ class Camera:
         (4.0, 4.0, 4.0)
         """
         lowest, highest = data.bounds
-        return cls(**_lamina.orbit(lowest, highest, azimuth, elevation, fov_y))
+        degrees = [_conversion.number(name, angle)
+                   for name, angle in (("azimuth", azimuth), ("elevation", elevation), ("fov_y", fov_y))]
+        return cls(**_lamina.orbit(lowest, highest, *degrees))
 
     @classmethod
     def fit(cls, data: Volume | Mesh, transfer_function: Any = None, azimuth: float = 0, elevation: float = 0, *,
@@ -67,12 +69,14 @@ class Camera:
         to the right and up, fitted again."""
         from ._scene import scene_of  # a scene reads cameras
         scene = scene_of(data, transfer_function, {"size": size})._parsed()
-        return cls(**_lamina.fit(scene, data._core, azimuth, elevation))
+        return cls(**_lamina.fit(scene, data._core, _conversion.number("azimuth", azimuth),
+                                 _conversion.number("elevation", elevation)))
 
     def turned(self, degrees: float) -> Camera:
         """This camera with its eye turned about the axis ``up`` through ``center``."""
         scene = {"version": 1, "volume": {"generate": "constant"}, "camera": self.to_scene()}
-        return Camera(**_lamina.turned(_lamina.Scene.parse(json.dumps(scene), "camera"), degrees))
+        parsed = _lamina.Scene.parse(json.dumps(scene), "camera")
+        return Camera(**_lamina.turned(parsed, _conversion.number("degrees", degrees)))
 
     def to_scene(self) -> dict[str, Any]:
         """The key ``camera`` of a scene file."""

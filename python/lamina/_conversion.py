@@ -22,6 +22,12 @@ def shown(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
+def number(name: str, value: Any) -> float:
+    if isinstance(value, (str, bool)) or not hasattr(value, "__float__"):
+        raise TypeError(f"{name}: found {shown(value)}, expected a number")
+    return float(value)
+
+
 def triple(name: str, value: Any) -> tuple[float, float, float]:
     """Checks three numbers for x, y and z: finite, and no farther than scenes may be."""
     try:

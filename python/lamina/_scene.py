@@ -110,7 +110,10 @@ class Scene(dict[str, Any]):
                 _set(scene, "image.width", width)
                 _set(scene, "image.height", height)
             elif name == "transfer_function" or name in KEYWORDS:
-                _set(scene, ".".join(KEYWORDS.get(name, (name,))), plain(value, name))
+                item = plain(value, name)
+                if name in _OBJECTS and not isinstance(item, Mapping) and item != "auto":
+                    raise TypeError(f"{name}: found {shown(value)}, expected {_OBJECTS[name]}")
+                _set(scene, ".".join(KEYWORDS.get(name, (name,))), item)
             else:
                 near = difflib.get_close_matches(name, [*KEYWORDS, *WORDS, "size", "set", "transfer_function"], 1)
                 raise TypeError(f"unexpected keyword {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
@@ -130,6 +133,10 @@ def scene_of(data: Any, transfer_function: Any = None, keywords: Mapping[str, An
     scene._only_below = folder
     return scene
 
+
+# Keywords for which Python has objects.
+_OBJECTS = {"camera": "a lamina.Camera, a dictionary or \"auto\"",
+            "transfer_function": "a lamina.TransferFunction, a dictionary or \"auto\"; cmap names a colour map"}
 
 # Keys chosen for a picture of plain data, beside transfer function and camera (docs/first-picture.md), unless a
 # transfer function is given.

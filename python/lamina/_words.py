@@ -9,7 +9,8 @@ from typing import Any, Mapping
 import numpy as np
 
 from . import _lamina
-from ._conversion import shown
+from ._conversion import number, shown
+from ._errors import Error
 
 # Keywords that are words, with the names that the library has for them.
 WORDS = {"azimuth": "azimuth", "elevation": "elevation", "zoom": "zoom", "density": "density", "up": "up", "view": "view",
@@ -40,14 +41,16 @@ def _is_word(clip: Any) -> bool:
 
 def _plain_word(name: str, value: Any) -> Any:
     if name in ("azimuth", "elevation", "zoom", "density"):
-        if isinstance(value, bool) or not hasattr(value, "__float__"):
-            raise TypeError(f"{name}: found {shown(value)}, expected a number")
-        return float(value)
+        return number(name, value)
     if name == "clim":
-        return ",".join(_number(name, number) for number in _pair(name, value))
+        return ",".join(repr(number(name, end)) for end in _pair(name, value))
+    if isinstance(value, str) and not value:
+        raise ValueError(f"{name}: found '', expected a word")
     if name == "crop" and not isinstance(value, str):
         return _box(value)
-    if name == "light" and value is True:
+    if name == "light" and isinstance(value, bool):
+        if not value:
+            raise TypeError("light: found False, expected a word; lighting=False draws without light")
         return "headlight"
     if name == "cmap":
         return _colormap(value)
@@ -65,17 +68,11 @@ def _pair(name: str, value: Any) -> tuple[Any, Any]:
     return low, high
 
 
-def _number(name: str, value: Any) -> str:
-    if isinstance(value, (str, bool)) or not hasattr(value, "__float__"):
-        raise TypeError(f"{name}: found {shown(value)}, expected a number")
-    return repr(float(value))
-
-
 def _box(value: Any) -> str:
     """The word for ((x0, x1), (y0, y1), (z0, z1)), in which None is an open end."""
     if not hasattr(value, "__len__") or len(value) != 3:
         raise TypeError(f"crop: found {shown(value)}, expected ((x0, x1), (y0, y1), (z0, z1))")
-    ends = [[("" if end is None else _number("crop", end)) for end in _pair("crop", axis)] for axis in value]
+    ends = [[("" if end is None else repr(number("crop", end))) for end in _pair("crop", axis)] for axis in value]
     return ",".join(":".join(axis) for axis in ends)
 
 
@@ -86,9 +83,9 @@ def _opacity(value: Any) -> str:
     except (TypeError, ValueError):
         numbers = np.empty(0)
     if numbers.ndim == 1 and len(numbers) > 1:
-        return ",".join(repr(number) for number in numbers.tolist())
+        return ",".join(repr(share) for share in numbers.tolist())
     if numbers.ndim == 2 and numbers.shape[1] == 2 and len(numbers) > 1:
-        return ",".join(f"{at!r}:{number!r}" for at, number in numbers.tolist())
+        return ",".join(f"{at!r}:{share!r}" for at, share in numbers.tolist())
     raise TypeError(f"opacity: found {shown(value)}, expected a word, two or more numbers, or pairs (value, number)")
 
 
@@ -97,19 +94,40 @@ def _colormap(value: Any) -> str:
     if isinstance(value, os.PathLike):
         return str(os.fspath(value))
     if isinstance(value, str):
-        if value in _lamina.colormap_names() or os.path.exists(value):
+        names = _lamina.colormap_names()
+        if value in names or value.startswith("{") or os.path.exists(value):
             return value
         try:
             import matplotlib  # type: ignore[import]
+        except ImportError:
+            raise Error(f"cmap: found {shown(value)}, expected {', '.join(names)}, a file, or a name of matplotlib, which "
+                        "is not installed") from None
+        try:
             value = matplotlib.colormaps[value]
-        except (ImportError, AttributeError, KeyError):
+        except (AttributeError, KeyError):
             return str(value)  # the library says which names there are
     count = getattr(value, "N", None)
-    if not callable(value) or not isinstance(count, int) or count < 1:
+    if not callable(value) or not isinstance(count, (int, np.integer)) or count < 1:
         raise TypeError(f"cmap: found {shown(value)}, expected a name, a file or a matplotlib colormap")
     # Many colours are points of lines between them; few are bands, as matplotlib shows them.
-    colors = np.asarray(value(np.arange(count)), dtype=float)[:, :3].tolist()
+    colors = _colors(value, int(count))
     rows = [[(i + 0.5) / count, *color] for i, color in enumerate(colors)]
     if count <= MOST_BANDS:
         rows = [[edge / count, *color] for i, color in enumerate(colors) for edge in (i, i + 1)]
-    return json.dumps({"ColorSpace": "RGB", "RGBPoints": [number for row in rows for number in row]})
+    return json.dumps({"ColorSpace": "RGB", "RGBPoints": [one for row in rows for one in row]})
+
+
+def _colors(colormap: Any, count: int) -> list[list[float]]:
+    """All colours of a matplotlib map: three numbers from 0 to 1 each."""
+    try:
+        colors = np.asarray(colormap(np.arange(count)), dtype=float)
+    except Exception as error:
+        raise TypeError(f"cmap: {shown(colormap)} gives no colours: {error}") from error
+    if colors.shape not in ((count, 3), (count, 4)):
+        raise TypeError(f"cmap: {shown(colormap)} gives an array of shape {colors.shape}, expected ({count}, 4) for its "
+                        f"{count} colours")
+    wrong = colors[:, :3][~((colors[:, :3] >= 0) & (colors[:, :3] <= 1))]
+    if len(wrong) > 0:
+        raise ValueError(f"cmap: {shown(colormap)} gives {wrong[0]:g} in a colour, expected numbers from 0 to 1")
+    listed: list[list[float]] = colors[:, :3].tolist()
+    return listed

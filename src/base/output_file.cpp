@@ -92,6 +92,18 @@ int open_nameless(const std::string& folder) {
     return named;
 }
 
+// Tells whether rename() would replace no file of this name: in a folder with the sticky bit, such
+// as /tmp, only the owners of folder and file may.
+bool belongs_to_another(const std::filesystem::path& path) {
+    struct stat file = {};
+    struct stat folder = {};
+    const std::string parent = path.has_parent_path() ? path.parent_path().string() : ".";
+    if (lstat(path.c_str(), &file) != 0 || stat(parent.c_str(), &folder) != 0) return false;
+    const uid_t own = geteuid();
+    return (folder.st_mode & S_ISVTX) != 0 && own != 0 && file.st_uid != own &&
+           folder.st_uid != own;
+}
+
 constexpr const char* first_line = "Written by lamina, which replaces nothing else here:";
 
 bool is_there(const std::filesystem::path& path) {
@@ -110,6 +122,11 @@ AtomicFile::AtomicFile(std::filesystem::path path) : OutputFile(without_links(st
             std::filesystem::is_directory(status) ? "a directory" : "a device, pipe or socket"));
     }
     if (path_.filename().string().size() > NAME_MAX) give_up(ENAMETOOLONG);
+    if (belongs_to_another(path_)) give_up(EPERM);
+    if (const auto folder = path_.parent_path(); !folder.empty() && !is_there(folder)) {
+        throw WriteError(fmt::format("{}: cannot write: there is no folder {}", path_.string(),
+                                     folder.string()));
+    }
     if (!open_nameless()) open_named();
     keep_mode();
     open_stream();

@@ -298,7 +298,7 @@ std::string clip_text(const Clip& clip) {
 }
 
 // Sets the directions of the wanted lights, for which the camera must be known, and says which
-// lights and clips were asked for.
+// lights were asked for.
 void add_lights(const Adjustments& adjustments, Choices& choices) {
     Scene& scene = choices.scene;
     if (adjustments.light && given_lighting(scene.lighting) != nullptr) {
@@ -306,7 +306,6 @@ void add_lights(const Adjustments& adjustments, Choices& choices) {
         choices.reasons.push_back(
             fmt::format("lighting: {}, as asked", name_of(*adjustments.light)));
     }
-    if (!adjustments.clip.keeps_all()) choices.reasons.push_back(clip_text(scene.clip));
 }
 
 // Chooses the camera of a scene whose transfer function is known. Returns why it is upright so, for
@@ -318,8 +317,8 @@ std::string choose_camera(const Adjustments& adjustments, const Field& field, bo
     ViewTurn turn = turn_to(adjustments.side.value_or(ViewSide::iso), from);
     turn.azimuth += adjustments.turn.azimuth;
     turn.elevation += adjustments.turn.elevation;
-    const PictureMargins margins = annotation_margins(
-        scene, annotated_data(field, scene.annotations.labels.has_value(), scene.clip));
+    const PictureMargins margins =
+        annotation_margins(scene, annotated_data(field, scene.annotations, scene.clip));
     scene.camera = fitted_camera(points_to_fit(scene, field, per_world_unit), from.front, turn,
                                  scene.width, scene.height, adjustments.all_around, margins);
     if (!adjustments.side) return from.reason;
@@ -437,8 +436,10 @@ Choices choose_unlit(Scene asked, const Field& whole, const Adjustments& adjustm
 }  // namespace
 
 Choices choose(Scene asked, const Field& field, const Adjustments& adjustments) {
+    const Clip own = asked.clip;  // without the planes that are chosen
     Choices choices = choose_unlit(std::move(asked), field, adjustments);
     add_lights(adjustments, choices);
+    if (!adjustments.clip.keeps_all()) choices.reasons.push_back(clip_text(own));
     return choices;
 }
 

@@ -145,37 +145,77 @@ std::vector<glm::dvec3> kept_of(const std::vector<glm::dvec3>& pairs, const Half
     return kept;
 }
 
+// Calls visit(begin, end) for the samples of the row (y, z) along x of whose voxels the planes keep
+// a part, if there are any.
+template <typename Sample, typename Visit>
+void visit_kept(const SampleWindow<Sample>& window, const Grid& grid, std::int64_t y,
+                std::int64_t z, std::span<const IndexPlane> planes, const Visit& visit) {
+    // Voxels of the row between which no plane cuts a whole one away: the distance of the farthest
+    // corner is linear along the row.
+    double first = 0, last = static_cast<double>(grid.size[0] - 1);
+    for (const IndexPlane& plane : planes) {
+        const glm::dvec3 n = plane.normal, reach = 0.5 * glm::abs(n);
+        const double at = plane.distance(glm::dvec3(0, y, z)) + reach.x + reach.y + reach.z;
+        if (n.x > 0) first = std::max(first, std::floor(-at / n.x) + 1);
+        if (n.x < 0) last = std::min(last, std::ceil(-at / n.x) - 1);
+        if (n.x == 0 && at <= 0) last = -1;
+    }
+    if (first > last) return;
+    const Sample* const row = window.row(y, z);
+    visit(row + static_cast<std::int64_t>(first), row + static_cast<std::int64_t>(last) + 1);
+}
+
 // Tells for each code of whole samples, from the type's lowest one on, whether a voxel with it is
 // kept.
 template <typename Sample>
 std::vector<char> kept_codes(const Volume& volume, std::span<const IndexPlane> planes) {
     constexpr int lowest = std::numeric_limits<Sample>::min();
     constexpr std::size_t count = std::size_t{1} << 8 * sizeof(Sample);
-    const auto& size = volume.grid().size;
-    const auto* const samples = static_cast<const Sample*>(volume.data());
+    const Grid& grid = volume.grid();
+    const SampleWindow<Sample> window{{{0, 0, 0}, grid.size},
+                                      static_cast<const Sample*>(volume.data())};
     std::vector<char> kept(count);
     std::mutex adding;
-    parallel_for(size[2], 1, [&](std::int64_t z) {
+    parallel_for(grid.size[2], 1, [&](std::int64_t z) {
         std::vector<char> here(count);
-        for (std::int64_t y = 0; y < size[1]; ++y) {
-            // Voxels of the row between which no plane cuts a whole one away: the distance of the
-            // farthest corner is linear along the row.
-            double first = 0, last = static_cast<double>(size[0] - 1);
-            for (const IndexPlane& plane : planes) {
-                const glm::dvec3 n = plane.normal, reach = 0.5 * glm::abs(n);
-                const double at = plane.distance(glm::dvec3(0, y, z)) + reach.x + reach.y + reach.z;
-                if (n.x > 0) first = std::max(first, std::floor(-at / n.x) + 1);
-                if (n.x < 0) last = std::min(last, std::ceil(-at / n.x) - 1);
-                if (n.x == 0 && at <= 0) last = -1;
-            }
-            if (first > last) continue;
-            const Sample* const row = samples + (z * size[1] + y) * size[0];
-            const auto end = static_cast<std::int64_t>(last);
-            for (auto x = static_cast<std::int64_t>(first); x <= end; ++x)
-                here[static_cast<std::size_t>(row[x] - lowest)] = 1;
+        for (std::int64_t y = 0; y < grid.size[1]; ++y) {
+            visit_kept(window, grid, y, z, planes, [&](const Sample* at, const Sample* end) {
+                for (; at != end; ++at) here[static_cast<std::size_t>(*at - lowest)] = 1;
+            });
         }
         const std::scoped_lock lock(adding);
         for (std::size_t i = 0; i < count; ++i) kept[i] |= here[i];
+    });
+    return kept;
+}
+
+// Returns the range of the finite samples of whose voxels the planes keep a part.
+template <typename Sample>
+ValueRange kept_samples(const Volume& volume, std::span<const IndexPlane> planes) {
+    const Grid& grid = volume.grid();
+    const std::int64_t slices =
+        std::max<std::int64_t>(1, most_read / (grid.size[0] * grid.size[1]));
+    ValueRange kept;
+    std::mutex adding;
+    parallel_for((grid.size[2] + slices - 1) / slices, 1, [&](std::int64_t block) {
+        SampleBox box{{0, 0, block * slices}, grid.size};
+        box.size[2] = std::min(slices, grid.size[2] - box.first[2]);
+        Sample lo = std::numeric_limits<Sample>::max(), hi = std::numeric_limits<Sample>::lowest();
+        visit_window<Sample>(volume, box, [&](const SampleWindow<Sample>& window) {
+            for (std::int64_t i = 0; i < box.size[1] * box.size[2]; ++i) {
+                const std::int64_t y = i % box.size[1], z = box.first[2] + i / box.size[1];
+                visit_kept(window, grid, y, z, planes, [&](const Sample* at, const Sample* end) {
+                    for (; at != end; ++at) {
+                        if (!std::isfinite(static_cast<double>(*at))) continue;
+                        lo = std::min(lo, *at);
+                        hi = std::max(hi, *at);
+                    }
+                });
+            }
+        });
+        if (lo > hi) return;
+        const std::scoped_lock lock(adding);
+        kept = joined(kept, {static_cast<double>(lo), static_cast<double>(hi)});
     });
     return kept;
 }
@@ -268,6 +308,13 @@ std::optional<std::vector<double>> VolumeField::kept_values(const Clip& clip) co
     else
         add(kept_codes<std::int16_t>(volume_, planes), std::numeric_limits<std::int16_t>::min());
     return values;
+}
+
+ValueRange VolumeField::kept_range(const Clip& clip) const {
+    if (clip.keeps_all() || volume_.grid().sample_count() > large_volume) return range();
+    const std::vector<IndexPlane> planes = index_planes(clip, volume_.grid());
+    return with_sample_type(
+        volume_.type(), [&](auto zero) { return kept_samples<decltype(zero)>(volume_, planes); });
 }
 
 std::vector<glm::dvec3> VolumeField::shown_points(const TransferFunction& transfer_function,
@@ -383,6 +430,12 @@ const SceneMesh* MeshField::kept_by(const Clip& clip) const {
     return kept_.get();
 }
 
+ValueRange MeshField::kept_range(const Clip& clip) const {
+    if (clip.keeps_all()) return range();
+    const SceneMesh* const kept = kept_by(clip);
+    return kept == nullptr ? ValueRange() : MeshField(*kept).range();
+}
+
 std::vector<glm::dvec3> MeshField::shown_points(const TransferFunction& transfer_function,
                                                 double least, const Clip& clip) const {
     if (!clip.keeps_all()) {
@@ -431,21 +484,31 @@ std::optional<BorderlessField> Field::without_border() const {
     return std::nullopt;
 }
 
+bool Field::cut_away_by(const Clip& clip) const {
+    if (clip.keeps_all()) return false;
+    const auto box = corners();
+    MeshData tets;
+    tets.points.assign(box.begin(), box.end());
+    tets.tets = {{0, 1, 2, 4}, {3, 1, 2, 7}, {5, 1, 4, 7}, {6, 2, 4, 7}, {1, 2, 4, 7}};
+    return cut_mesh(std::move(tets), half_spaces(clip)).tets.empty();
+}
+
 double diagonal_of(const Field& field) {
     const auto corners = field.corners();
     return glm::distance(corners.front(), corners.back());
 }
 
-AnnotatedData annotated_data(const Field& field, bool with_labels, const Clip& clip) {
+AnnotatedData annotated_data(const Field& field, const Annotations& wanted, const Clip& clip) {
     const VolumeLabels* const named = field.labels();
+    const ValueRange kept_range = wanted.colorbar ? field.kept_range(clip) : field.range();
     AnnotatedData data{field.quantity(),
                        field.length_unit(),
                        field.axes(),
                        field.corners(),
-                       field.range(),
+                       kept_range.empty() ? field.range() : kept_range,
                        named != nullptr,
                        {}};
-    if (named == nullptr || !with_labels) return data;
+    if (named == nullptr || !wanted.labels) return data;
     const ValueDistribution values = field.distribution();
     auto next = named->list.begin();
     for (std::size_t i = 0; i < values.distinct(); ++i) {

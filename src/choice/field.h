@@ -70,6 +70,10 @@ class Field {
         return std::nullopt;
     }
 
+    // Returns the range of the finite values of what the clip keeps; empty if it keeps none. Of all
+    // values in large volumes.
+    virtual ValueRange kept_range(const Clip& clip) const = 0;
+
     // Measures how the field varies, in the bins of an empty Variation (variation_of()).
     virtual Variation variation(const ValueRange& measured, const Variation& bins) const = 0;
     // Tells whether the data end at the surface of a thing, as meshes do: then a faint outline of
@@ -83,6 +87,8 @@ class Field {
     virtual std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function,
                                                  double least, const Clip& clip = {}) const = 0;
     virtual std::array<glm::dvec3, 8> corners() const = 0;
+    // Tells whether a clip keeps nothing of the data, or of their box if this has more.
+    virtual bool cut_away_by(const Clip& clip) const;
 
     // Returns the data without the border of constant values around them; nothing if they have
     // none.
@@ -116,6 +122,7 @@ class VolumeField : public Field {
     // Returns nothing unless the samples are whole numbers in memory. A voxel is kept unless a
     // single plane cuts all of it away.
     std::optional<std::vector<double>> kept_values(const Clip& clip) const override;
+    ValueRange kept_range(const Clip& clip) const override;
     Variation variation(const ValueRange& measured, const Variation& bins) const override {
         return variation_of(volume_, inside(), measured, bins);
     }
@@ -150,6 +157,7 @@ class MeshField : public Field {
     // Tets count by their volume. A tet with a corner far from all other values (find_markers())
     // counts by its corners: values interpolated inside it were not measured.
     ValueDistribution distribution() const override;
+    ValueRange kept_range(const Clip& clip) const override;
     Variation variation(const ValueRange& measured, const Variation& bins) const override {
         return variation_of(mesh_, measured, bins);
     }
@@ -158,6 +166,9 @@ class MeshField : public Field {
     std::vector<glm::dvec3> shown_points(const TransferFunction& transfer_function, double least,
                                          const Clip& clip = {}) const override;
     std::array<glm::dvec3, 8> corners() const override;
+    bool cut_away_by(const Clip& clip) const override {
+        return !clip.keeps_all() && kept_by(clip) == nullptr;
+    }
     std::vector<double> optical_depths(const Scene& scene) const override;
 
   private:
@@ -172,9 +183,10 @@ class MeshField : public Field {
 // Returns the diagonal of the data's box.
 double diagonal_of(const Field& field);
 
-// Returns what annotations tell of the data. `with_labels`: lists the labels that occur in them,
-// for which the values are counted, without those of which `clip` is known to keep nothing.
-AnnotatedData annotated_data(const Field& field, bool with_labels, const Clip& clip = {});
+// Returns what the wanted annotations tell of the data. For a colour bar the range is that of what
+// the clip keeps, unless this is nothing. For a legend of labels the values are counted: it lists
+// those that occur, without those of which the clip is known to keep nothing.
+AnnotatedData annotated_data(const Field& field, const Annotations& wanted, const Clip& clip = {});
 
 // Number of samples above which camera and extinctions are chosen from fewer samples, because the
 // volume may stay on disk. In memory it is treated alike, so that its picture is the same.

@@ -52,38 +52,47 @@ double share_between(const std::vector<OpacityCurve::Point>& points, double t) {
     return a.share + (t - a.t) / (b.t - a.t) * (b.share - a.share);
 }
 
-// Reads the number at the front of a text, and removes it. Nothing if there is none or it is beyond
-// `largest`.
-std::optional<double> take_number(std::string_view& text, double largest) {
+// Returns the number that all of a text is. Throws Error unless it lies between `least` and `most`.
+double number_of(std::string_view text, double least, double most, const char* expected) {
     double number = 0;
-    const auto [stop, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (problem != std::errc{} || !(std::abs(number) <= largest)) return std::nullopt;
-    text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
+    const char* const end = text.data() + text.size();
+    const auto [stop, problem] = std::from_chars(text.data(), end, number);
+    if (problem != std::errc{} || stop != end || !(number >= least && number <= most))
+        fail("{}, found {}", expected, text.empty() ? "none" : shortened(std::string(text)));
     return number;
 }
 
-// Returns the curve of "0,.2,.9" or "10:0,20:.5".
-std::optional<OpacityCurve> curve_of_numbers(std::string_view text) {
+// Returns the point of "VALUE:NUMBER", or of "NUMBER" with the number `place` as its t.
+OpacityCurve::Point point_of(std::string_view text, bool has_value, std::size_t place) {
+    if (!has_value)
+        return {static_cast<double>(place), number_of(text, 0, 1, "numbers from 0 to 1")};
+    const std::size_t colon = text.find(':');
+    if (colon == text.npos) {
+        fail("a value before each number, as in 10:0,20:.5, found {} without one",
+             text.empty() ? "a number" : shortened(std::string(text)));
+    }
+    return {number_of(text.substr(0, colon), -1e300, 1e300, "a value before each number"),
+            number_of(text.substr(colon + 1), 0, 1, "numbers from 0 to 1 after the values")};
+}
+
+// Returns the curve of "0,.2,.9" or "10:0,20:.5". Throws Error that says what is expected.
+OpacityCurve curve_of_numbers(std::string_view text) {
     OpacityCurve curve{OpacityCurve::Form::points};
     const bool pairs = text.find(':') != text.npos;
-    for (bool more = true; more; text.remove_prefix(more ? 1 : 0)) {
-        OpacityCurve::Point point{static_cast<double>(curve.points.size()), 0};
-        if (pairs) {
-            const auto value = take_number(text, 1e300);
-            if (!value || !text.starts_with(':')) return std::nullopt;
-            text.remove_prefix(1);
-            point.t = *value;
-        }
-        const auto share = take_number(text, 1);
-        if (!share || *share < 0) return std::nullopt;
-        point.share = *share;
-        if (!curve.points.empty() && !(curve.points.back().t < point.t)) return std::nullopt;
+    for (bool more = true; more;) {
+        const std::size_t comma = text.find(',');
+        const auto point = point_of(text.substr(0, comma), pairs, curve.points.size());
+        if (!curve.points.empty() && !(curve.points.back().t < point.t))
+            fail("rising values, found {} after {}", point.t, curve.points.back().t);
         curve.points.push_back(point);
-        more = text.starts_with(',');
+        more = comma != text.npos;
+        text.remove_prefix(more ? comma + 1 : text.size());
     }
-    const bool any = std::ranges::any_of(curve.points, [](const auto& p) { return p.share > 0; });
-    if (!text.empty() || curve.points.size() < 2 || curve.points.size() > most_scene_points || !any)
-        return std::nullopt;
+    if (curve.points.size() < 2) fail("two or more numbers, as in 0,.2,.9 or 10:0,20:.5");
+    if (curve.points.size() > most_scene_points)
+        fail("at most {} numbers, found {}", most_scene_points, curve.points.size());
+    if (std::ranges::none_of(curve.points, [](const auto& point) { return point.share > 0; }))
+        fail("a number above 0");
     const ValueRange range{curve.points.front().t, curve.points.back().t};
     for (OpacityCurve::Point& point : curve.points)
         point.t = (point.t - range.lo) / (range.hi - range.lo);
@@ -120,22 +129,27 @@ double OpacityCurve::at(double t) const {
     unreachable_enum();
 }
 
-std::optional<OpacityCurve> opacity_curve(const std::string& word) {
+OpacityCurve opacity_curve(const std::string& word) {
     using Form = OpacityCurve::Form;
-    if (word == "linear") return OpacityCurve{Form::linear};
-    if (word == "linear_r") return OpacityCurve{Form::linear, true};
-    if (word == "geom") return OpacityCurve{Form::geom};
-    if (word == "geom_r") return OpacityCurve{Form::geom, true};
-    if (word == "foreground") return OpacityCurve{Form::foreground};
-    if (word == "sigmoid") return OpacityCurve{Form::sigmoid};
+    if (word == "linear") return {Form::linear};
+    if (word == "linear_r") return {Form::linear, true};
+    if (word == "geom") return {Form::geom};
+    if (word == "geom_r") return {Form::geom, true};
+    if (word == "foreground") return {Form::foreground};
+    if (word == "sigmoid") return {Form::sigmoid};
+    if (word.find_first_of("0123456789.+-,:") == 0) return curve_of_numbers(word);
     const std::string beginning = "sigmoid_";
-    if (!word.starts_with(beginning)) return curve_of_numbers(word);
+    if (!word.starts_with(beginning)) {
+        fail(
+            "linear, linear_r, geom, geom_r, sigmoid, sigmoid_1 to sigmoid_20, foreground, or "
+            "numbers as in 0,.2,.9 or 10:0,20:.5");
+    }
     OpacityCurve curve{Form::sigmoid};
     const char* const end = word.data() + word.size();
     int steepness = 0;
     const auto [stop, problem] = std::from_chars(word.data() + beginning.size(), end, steepness);
     if (problem != std::errc{} || stop != end || steepness < 1 || steepness > 20)
-        return std::nullopt;
+        fail("sigmoid_1 to sigmoid_20");
     curve.steepness = steepness;
     return curve;
 }

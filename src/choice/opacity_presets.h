@@ -35,12 +35,10 @@ struct OpacityCurve {
 };
 
 // Returns the curve of a word: linear, geom, sigmoid, sigmoid_N, foreground; the first two also
-// with _r, which reverses them; or of numbers. Nothing for other words.
-std::optional<OpacityCurve> opacity_curve(const std::string& word);
-inline constexpr const char* opacity_words =
-    "linear, linear_r, geom, geom_r, sigmoid, sigmoid_1 to sigmoid_20, foreground, or numbers from "
-    "0 to 1, two or more and not all 0: 0,.2,.9 spread evenly, or VALUE:NUMBER,... with rising "
-    "values";
+// with _r, which reverses them; or of two or more numbers from 0 to 1, not all 0: "0,.2,.9" spread
+// evenly, or "10:0,20:.5" at rising values. Throws Error that says what is expected of other words:
+// "numbers from 0 to 1, found 2".
+OpacityCurve opacity_curve(const std::string& word);
 
 // Returns the values from the first to the last that the function shows; all of its points' values
 // if it shows none.

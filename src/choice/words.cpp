@@ -59,6 +59,14 @@ Colormap colormap_of_word(const std::string& name_or_path, ImageColorSpace space
     }
 }
 
+OpacityCurve opacity_of_word(const std::string& word) {
+    try {
+        return opacity_curve(word);
+    } catch (const Error& error) {
+        reject("opacity", word, error.what());
+    }
+}
+
 // Returns the enum's value for a text, or nothing for an empty one.
 template <typename Enum>
 std::optional<Enum> word_in(const char* word, const std::string& text) {
@@ -180,8 +188,7 @@ void set_transfer(const Words& words, ImageColorSpace space, Adjustments& adjust
     if (words.opacity == "colormap" && !words.preset.empty())
         adjustments.opacity = OpacityCurve{OpacityCurve::Form::of_colormap};
     else
-        adjustments.opacity = opacity_curve(words.opacity);
-    if (!adjustments.opacity) reject("opacity", words.opacity, opacity_words);
+        adjustments.opacity = opacity_of_word(words.opacity);
     adjustments.opacity_word = words.opacity == "colormap" ? words.preset : words.opacity;
 }
 

@@ -424,21 +424,22 @@ void Pipeline::draw_counted() {
     counted_fragments_ = static_cast<std::int64_t>(query.result());
 }
 
-// The values of data whose labels are listed are counted once.
+// The values of data are counted once for labels, and their range for a colour bar.
 const AnnotatedData& Pipeline::annotated() {
-    const bool labels = scene_.annotations.labels.has_value();
+    const Annotations& wanted = scene_.annotations;
+    const std::pair counted(wanted.labels.has_value(), wanted.colorbar.has_value());
     std::shared_ptr<const void> drawn;
     if (scene_.draws_mesh())
         drawn = data_.mesh(scene_);
     else
         drawn = data_.volume(scene_);
-    const bool known = annotated_ && annotated_of_.lock() == drawn && annotated_labels_ == labels &&
-                       annotated_clip_ == scene_.clip;
+    const bool known = annotated_ && annotated_of_.lock() == drawn &&
+                       annotated_counted_ == counted && annotated_clip_ == scene_.clip;
     if (known) return *annotated_;
     annotated_of_ = drawn;
-    annotated_labels_ = labels;
+    annotated_counted_ = counted;
     annotated_clip_ = scene_.clip;
-    return annotated_.emplace(annotated_data(*field(), labels, scene_.clip));
+    return annotated_.emplace(annotated_data(*field(), wanted, scene_.clip));
 }
 
 template <typename Real>

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "annotation/annotation_layer.h"
@@ -177,8 +178,8 @@ class Pipeline {
     // Properties that annotations tell of the data, which are `annotated_of_`.
     std::optional<AnnotatedData> annotated_;
     std::weak_ptr<const void> annotated_of_;
-    bool annotated_labels_ = false;  // with the labels listed
-    Clip annotated_clip_;            // of which the labels are
+    std::pair<bool, bool> annotated_counted_;  // for labels, and for a colour bar
+    Clip annotated_clip_;                      // of which labels and range are
     std::map<std::string, double> stages_ms_;
     std::optional<std::int64_t> counted_fragments_;
     int frames_drawn_ = 0;

@@ -167,13 +167,7 @@ std::string why_nothing_shows(const Scene& scene, const Field& field, float larg
     if (behind) return "the camera looks away from the data, which lie behind the eye";
     if (const char* const side = side_beside(view, corners))
         return fmt::format("the camera looks past the data, which lie {} the picture", side);
-    const std::vector<HalfSpace> clip = half_spaces(scene.clip);
-    for (const HalfSpace& half : clip) {
-        const bool cut_away = std::ranges::all_of(corners, [&](const glm::dvec3& corner) {
-            return glm::dot(half.normal, corner - half.point) <= 0;
-        });
-        if (cut_away) return "the clip cuts all of the data away";
-    }
+    if (field.cut_away_by(scene.clip)) return "the clip cuts all of the data away";
     if (largest > 0) {
         return fmt::format(
             "the largest opacity is {:.2g}, for the extinction of at most {:.3g} per unit of "
@@ -181,9 +175,10 @@ std::string why_nothing_shows(const Scene& scene, const Field& field, float larg
             "is small for these data",
             largest, scene.transfer_function->max_extinction(range.lo, range.hi));
     }
-    return clip.empty() ? "no pixel's ray meets a value that the transfer function shows"
-                        : "no pixel's ray meets a value that the transfer function shows in what "
-                          "the clip keeps";
+    return scene.clip.keeps_all()
+               ? "no pixel's ray meets a value that the transfer function shows"
+               : "no pixel's ray meets a value that the transfer function shows in what "
+                 "the clip keeps";
 }
 
 // Warns if the data lie beyond all values between which colours change, so that all get one colour.

@@ -200,7 +200,8 @@ double JsonReader::number(const std::string& key) {
 }
 
 std::int64_t JsonReader::whole(const std::string& key, std::int64_t lo, std::int64_t hi) {
-    const std::string expected = fmt::format("a whole number from {} to {}", lo, hi);
+    const std::string expected =
+        lo == hi ? fmt::format("{}", lo) : fmt::format("a whole number from {} to {}", lo, hi);
     if (!has(key) || !object_[key].is_number()) reject(key, expected);
     const double found = object_[key].get<double>();  // 8.0 and 8e0 are whole numbers, too
     if (!(found >= static_cast<double>(lo) && found <= static_cast<double>(hi)) ||

@@ -27,7 +27,10 @@ constexpr const char *bio_formats = "Fiji (Bio-Formats) saves it as OME-TIFF",
                      *slicer = "3D Slicer or ITK-SNAP saves it as NRRD",
                      *mrcfile = "the Python package mrcfile reads it, numpy.save writes .npy",
                      *scanco = "Fiji (its plugin for SCANCO) saves it as TIFF",
-                     *numpy = "numpy.save writes arrays as .npy", *surface = "it has no volume",
+                     *numpy = "numpy.save writes arrays as .npy",
+                     *surface =
+                         "it has no volume; trimesh fills a closed one with voxels "
+                         "(voxelized(pitch).fill().matrix), numpy.save writes .npy",
                      *pictures = "save its pictures as PNG or TIFF, such as by ImageMagick",
                      *unpack = "unpack it first", *download = "download the data that it leads to",
                      *points = "it has no volume; numpy.histogramdd counts points in voxels",

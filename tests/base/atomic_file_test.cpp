@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <set>
 #include <string>
@@ -66,6 +67,22 @@ TEST(AtomicFile, KeepsTheModeOfWhatItReplaces) {
             EXPECT_EQ(read_bytes_of(path), "new");
         }
     }
+}
+
+// Long work would be lost if rename() failed after it.
+TEST(AtomicFile, FailsAtOnceIfAnotherUsersFileCannotBeReplaced) {
+    if (geteuid() != 0) GTEST_SKIP() << "only root can work as another user";
+    const TemporaryFolder folder;
+    write_bytes_to(folder / "a.txt", "old");
+    ASSERT_EQ(chmod(folder.path().c_str(), 01777), 0);
+    constexpr uid_t nobody = 65534;
+    ASSERT_EQ(seteuid(nobody), 0);
+    const std::string message = error_of([&] { AtomicFile(folder / "a.txt"); });
+    AtomicFile(folder / "b.txt").commit();
+    ASSERT_EQ(seteuid(0), 0);
+    EXPECT_NE(message.find("a.txt: cannot write: Operation not permitted"), std::string::npos)
+        << message;
+    EXPECT_EQ(names_in(folder), (std::set<std::string>{"a.txt", "b.txt"}));
 }
 
 TEST(AtomicFile, LeavesNothingWithoutCommit) {

@@ -181,6 +181,18 @@ TEST(ConstantBorder, IsSaidAndKeptIfAsked) {
     EXPECT_TRUE(chosen_for(volume, boxed).scene.clip.planes.empty());
 }
 
+TEST(ConstantBorder, IsNotCountedAsAskedFor) {
+    const Volume volume = bordered<std::uint8_t>(255, Widths::all(2));
+    Words words;
+    words.clip = {"x:3:"};
+    const Adjustments adjustments = adjustments_of(words, ImageColorSpace::linear);
+    Scene scene = test::open_scene();
+    adjust_scene(scene, adjustments);
+    const Choices found = chosen_for(volume, scene, adjustments);
+    EXPECT_EQ(found.scene.clip.planes.size(), 7u);
+    EXPECT_EQ(std::ranges::count(found.reasons, "clip: 1 plane, as asked"), 1);
+}
+
 // Layers of one value each are the data of a field that varies along one axis alone.
 TEST(ConstantBorder, IsNoLayerOfARamp) {
     for (const std::size_t axis : {0, 1, 2}) {

@@ -16,6 +16,7 @@
 #include "base/memory.h"
 #include "choice/field.h"
 #include "facts/volume_facts.h"
+#include "support/stored_volume.h"
 #include "support/volume_of.h"
 
 namespace lamina {
@@ -215,6 +216,12 @@ TEST(KeptValues, AreThoseOfVoxelsThatNoPlaneCutsAway) {
         const auto kept = VolumeField(volume, measure_bricks(volume)).kept_values(clip);
         ASSERT_TRUE(kept);
         EXPECT_EQ(*kept, kept_by_search(volume, index_planes(clip, grid))) << trial;
+        for (const Volume& one : {volume, test::stored(volume)}) {
+            const ValueRange range = VolumeField(one, measure_bricks(volume)).kept_range(clip);
+            const ValueRange expected =
+                kept->empty() ? ValueRange() : ValueRange{kept->front(), kept->back()};
+            EXPECT_EQ(range, expected) << trial;
+        }
     }
 }
 
@@ -226,9 +233,11 @@ TEST(KeptValues, AreTheLabelsOfALegend) {
         test::volume_of<std::uint8_t>(grid, [](double x, double, double) { return x; });
     const auto bricks = measure_bricks(volume);
     const VolumeField field(volume, bricks);
+    Annotations wanted;
+    wanted.labels.emplace();
     const auto listed = [&](const Clip& clip) {
         std::vector<double> codes;
-        for (const Label& label : annotated_data(field, true, clip).labels)
+        for (const Label& label : annotated_data(field, wanted, clip).labels)
             codes.push_back(label.code);
         return codes;
     };
@@ -240,6 +249,24 @@ TEST(KeptValues, AreTheLabelsOfALegend) {
     const glm::dvec3 low = grid.to_world({0.6, -1, -1}), high = grid.to_world({1.4, 9, 9});
     EXPECT_EQ(listed({{}, ClipBox{low, high}}), Codes{1});
     EXPECT_EQ(listed({{{{99, 0, 0}, {1, 0, 0}}}, {}}), Codes{});
+}
+
+// A bright border, a clip that cuts it away, and values that are not finite.
+TEST(KeptValues, AreTheRangeOfAColorBar) {
+    const Grid grid = test::grid_of({6, 5, 4}, Centering::node);
+    const Volume volume = test::volume_of<float>(grid, [](double x, double y, double) {
+        return x == 0 ? 1000. : y == 2 ? NAN : x + 10 * y;
+    });
+    const auto bricks = measure_bricks(volume);
+    const VolumeField field(volume, bricks);
+    const Clip inside{{{grid.to_world({1, 0, 0}), {1, 0, 0}}}, {}};
+    const Clip nothing{{{grid.to_world({9, 0, 0}), {1, 0, 0}}}, {}};
+    Annotations wanted;
+    EXPECT_EQ(annotated_data(field, wanted, inside).range, (ValueRange{1, 1000}));
+    wanted.colorbar.emplace();
+    EXPECT_EQ(annotated_data(field, wanted).range, (ValueRange{1, 1000}));
+    EXPECT_EQ(annotated_data(field, wanted, inside).range, (ValueRange{1, 45}));
+    EXPECT_EQ(annotated_data(field, wanted, nothing).range, (ValueRange{1, 1000}));
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST(LightWords, AreLightsOfTheChosenCamera) {
 
 // The formulas of docs/first-picture.md, written again.
 TEST(OpacityWords, FollowTheirFormulas) {
-    const auto at = [](const std::string& word, double t) { return opacity_curve(word)->at(t); };
+    const auto at = [](const std::string& word, double t) { return opacity_curve(word).at(t); };
     for (const double t : {0., .1, .5, .75, 1.}) {
         EXPECT_EQ(at("linear", t), t);
         EXPECT_EQ(at("linear_r", t), 1 - t);
@@ -154,14 +154,16 @@ TEST(OpacityWords, FollowTheirFormulas) {
         EXPECT_NEAR(at("sigmoid_3", t), 1 / (1 + std::exp(3 - 6 * t)), 1e-15);
         EXPECT_EQ(at("foreground", t), 1);
     }
-    for (const char* const none : {"", "sigmoid_", "sigmoid_0", "sigmoid_5x", "linear_rr"})
-        EXPECT_FALSE(opacity_curve(none)) << none;
+    for (const char* const none : {"", "linear_rr", "nan", "a:0,b:1"})
+        expect_error([&] { opacity_curve(none); }, {"linear, linear_r, geom"});
+    for (const char* const none : {"sigmoid_", "sigmoid_0", "sigmoid_5x", "sigmoid_21"})
+        expect_error([&] { opacity_curve(none); }, {"sigmoid_1 to sigmoid_20"});
 }
 
 TEST(OpacityWords, StraightPiecesFollowTheCurve) {
     const auto function = TransferFunction::linear({{0, {{1, 0, 0}, 0}}, {40, {{0, 0, 1}, 5}}});
     for (const char* const word : {"linear", "geom", "geom_r", "sigmoid", "sigmoid_20"}) {
-        const OpacityCurve curve = *opacity_curve(word);
+        const OpacityCurve curve = opacity_curve(word);
         const auto shaped = with_opacity(function, curve, {10, 30});
         EXPECT_EQ(shaped.at(9.999).extinction, 0) << word;
         for (double t = 1e-9; t <= 1; t += 1. / 512) {
@@ -179,33 +181,53 @@ TEST(OpacityWords, RunOverWhatShows) {
         {{0, {{}, 0}}, {10, {{}, 0}}, {20, {{}, 3}}, {30, {{}, 0}}, {50, {{}, 0}}});
     EXPECT_EQ(shown_range(function), (ValueRange{10, 30}));
     // The function shows nothing above, so neither does the curve.
-    const auto flat = with_opacity(function, *opacity_curve("foreground"), {10, 50});
+    const auto flat = with_opacity(function, opacity_curve("foreground"), {10, 50});
     EXPECT_EQ(flat.at(40).extinction, 1);
     EXPECT_EQ(flat.at(50.001).extinction, 0);
 }
 
 TEST(OpacityWords, CanBeNumbers) {
-    const auto at = [](const std::string& word, double t) { return opacity_curve(word)->at(t); };
+    const auto at = [](const std::string& word, double t) { return opacity_curve(word).at(t); };
     EXPECT_EQ(at("0,1", .25), .25);
     EXPECT_EQ(at("0,.5,1,.25", 1. / 3), .5);
     EXPECT_EQ(at("0,.5,1,.25", 1), .25);
     EXPECT_EQ(at("10:0,20:1,50:0", .25), 1);
     EXPECT_NEAR(at("10:0,20:1,50:0", .625), .5, 1e-15);
-    for (const char* const none : {"1", "", ",", "0,", ",1", "0,1,", "0,0", "0,2", "-1,1", "0,nan",
-                                   "1:0", "1:0,1:1", "2:0,1:1", "1:0,2", "0,1 ", "a:0,b:1"})
-        EXPECT_FALSE(opacity_curve(none)) << none;
     const TransferFunction function =
         TransferFunction::linear({{0, {glm::dvec3(1), 1}}, {100, {glm::dvec3(1), 2}}});
     // Numbers in place of t are 0 below; those with values of their own are constant outside.
-    const auto spread = with_opacity(function, *opacity_curve("1,.5"), {10, 30});
+    const auto spread = with_opacity(function, opacity_curve("1,.5"), {10, 30});
     EXPECT_EQ(spread.at(9).extinction, 0);
     EXPECT_EQ(spread.at(20).extinction, .75);
-    const OpacityCurve pairs = *opacity_curve("10:1,30:.5");
+    const OpacityCurve pairs = opacity_curve("10:1,30:.5");
     ASSERT_TRUE(pairs.range);
     const auto own = with_opacity(function, pairs, *pairs.range);
     EXPECT_EQ(own.at(-5).extinction, 1);
     EXPECT_EQ(own.at(20).extinction, .75);
     EXPECT_EQ(own.at(99).extinction, .5);
+}
+
+TEST(OpacityWords, MistakesInNumbersSayWhatIsWrong) {
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {"1", "two or more numbers, as in 0,.2,.9"},
+        {"1:0", "two or more numbers"},
+        {",", "numbers from 0 to 1, found none"},
+        {"0,", "numbers from 0 to 1, found none"},
+        {",1", "numbers from 0 to 1, found none"},
+        {"0,2", "numbers from 0 to 1, found 2"},
+        {"-1,1", "numbers from 0 to 1, found -1"},
+        {"0,nan", "numbers from 0 to 1, found nan"},
+        {"0,1 ", "numbers from 0 to 1, found 1 "},
+        {"0,0", "a number above 0"},
+        {"1:0,1:1", "rising values, found 1 after 1"},
+        {"2:0,1:1", "rising values, found 1 after 2"},
+        {"1:0,2", "a value before each number, as in 10:0,20:.5, found 2 without one"},
+        {":0,2:1", "a value before each number, found none"},
+        {"1:0,2:3", "numbers from 0 to 1 after the values, found 3"}};
+    for (const auto& [word, message] : mistakes)
+        expect_error([&] { opacity_curve(word); }, {message});
+    expect_error([] { adjusted_by({.opacity = "0,2"}); },
+                 {"opacity 0,2: expected numbers from 0 to 1, found 2"});
 }
 
 // The density is the automatic one: the median ray has an opacity of .9 (docs/first-picture.md).
@@ -217,7 +239,7 @@ TEST(OpacityWords, HaveTheAutomaticDensity) {
         const Scene scene = chosen_with({.opacity = word, .range = "5,50"}, cube.field, square);
         const TransferFunction& function = *scene.transfer_function;
         const double full = function.at(50).extinction;
-        EXPECT_NEAR(function.at(20).extinction / full, opacity_curve(word)->at(1. / 3), 1e-3);
+        EXPECT_NEAR(function.at(20).extinction / full, opacity_curve(word).at(1. / 3), 1e-3);
         std::vector<double> depths = cube.field.optical_depths(scene);
         const double least = *std::ranges::max_element(depths) / 500;
         std::erase_if(depths, [&](double depth) { return !(depth > least); });

@@ -141,6 +141,18 @@ TEST_F(FilmStopped, AStoppedFilmGoesOn) {
     EXPECT_EQ(read_bytes_of(folder / "film.apng"), read_bytes_of(folder / "whole.apng"));
 }
 
+TEST_F(FilmStopped, AFilmThatIsStoppedBeforeItsFirstFrameLeavesNothing) {
+    StartedProgram program({LAMINA_BINARY, "render", folder / "scene.json", "-o",
+                            folder / "film.apng", "--turntable", "3", "--quiet", "--method",
+                            "trace", "--size", "4000x3000"});
+    wait_until([&] { return exists("film.apng.frames/lamina-files.txt") || program.has_ended(); });
+    program.send(SIGINT);
+    const ProgramResult ended = program.wait();
+    EXPECT_EQ(ended.exit_code, 130);
+    EXPECT_NE(ended.err.find("interrupted, nothing written"), std::string::npos) << ended.err;
+    EXPECT_FALSE(exists("film.apng.frames"));
+}
+
 // A program that reads nothing and never ends by itself is ended, and leaves no zombie.
 TEST_F(FilmStopped, CtrlCEndsFfmpeg) {
     const std::string id = folder / "id";

@@ -119,7 +119,7 @@ TEST_F(WordsRun, LightTakesNoFileForItsWord) {
     EXPECT_NE(absent.err.find("none.nrrd: no such file"), std::string::npos) << absent.err;
 }
 
-TEST_F(WordsRun, OptionsTwiceOrUnknownAreNamed) {
+TEST_F(WordsRun, OptionsThatAreWrongAreNamed) {
     const auto expect = [&](const std::vector<std::string>& more, const std::string& message) {
         const ProgramResult result = run(more, "render", folder / "x.png");
         EXPECT_EQ(result.exit_code, 2);
@@ -129,8 +129,22 @@ TEST_F(WordsRun, OptionsTwiceOrUnknownAreNamed) {
     expect({"--size", "20x10"}, "--size: found 2 times, expected once");
     expect({"--colourmap", "greys"}, "--colourmap: no such option, did you mean \"--colormap\"?");
     expect({"--nothing-like-it"}, "--nothing-like-it: no such option (");
-    expect({"w.nrrd"}, "w.nrrd: not expected here");
+    expect({"-size", "20x10"},
+           "-size: no such option, did you mean \"--size\"? (lamina render --help");
+    expect({"w.nrrd"}, "w.nrrd: not expected here (lamina render --help shows");
+    const ProgramResult bare = lamina_run({"render", folder / "v.nrrd", "x.png"});
+    EXPECT_NE(bare.err.find("x.png: not expected here, did you mean -o x.png?"), std::string::npos);
+    EXPECT_NE(lamina_run({"rendr"}).err.find("rendr: unknown verb, did you mean \"render\"?"),
+              std::string::npos);
+    EXPECT_NE(lamina_run({}).err.find("expected a verb, one of compare, "), std::string::npos);
+    EXPECT_NE(lamina_run({"--hepl"}).err.find("--hepl: expected a verb, one of compare, "),
+              std::string::npos);
     expect({"--zoom"}, "--zoom: expected a value after it");
+    expect({"--zoom", "two"}, "--zoom: found two, expected a number (");
+    expect({"--opacity", ""}, "--opacity: found '', expected a value (");
+    expect({"--fps", "2.5"}, "--fps: found 2.5, expected a whole number from 1 to 240 (");
+    expect({"--fps", "300"}, "--fps: found 300, expected a whole number from 1 to 240 (");
+    expect({"--turn-by", "200"}, "--turn-by: found 200, expected a number from -180 to 180 (");
 }
 
 TEST_F(WordsRun, OutputsOfNoKnownKindSayWhichThereAre) {

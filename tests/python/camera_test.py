@@ -56,3 +56,8 @@ def test_other_cameras_are_refused(arguments, error):
 def test_a_camera_that_sees_nothing_is_an_error(blob):
     with pytest.raises(lamina.Error, match="camera"):
         lamina.render(blob, camera=lamina.Camera((0, 0, 1), (0, 0, 1)))
+
+
+def test_angles_that_are_no_numbers_are_named(blob):
+    with pytest.raises(TypeError, match="azimuth: found 'x', expected a number"):
+        lamina.Camera.orbit(blob, azimuth="x")

@@ -109,8 +109,36 @@ def test_a_map_can_be_matplotlibs(blob, monkeypatch):
     assert np.array_equal(drawn(blob, cmap="strange", clim=(0.2, 0.8)).array, picture.array)
     drawn(blob, cmap="viridis")
     monkeypatch.setitem(sys.modules, "matplotlib", None)  # importing it is an ImportError
+    with pytest.raises(lamina.Error, match="cmap: found 'strange', expected cividis, .*, a file, or a name of matplotlib, which is not installed"):
+        drawn(blob, cmap="strange")
+    monkeypatch.setitem(sys.modules, "matplotlib", types.SimpleNamespace(colormaps={}))
     with pytest.raises(lamina.Error, match="colormap strange: no such file, and no colour map has that name"):
         drawn(blob, cmap="strange")
+
+
+def test_a_map_that_gives_nonsense_is_named(blob):
+    class Broken(Map):
+        def __init__(self, result):
+            self.N, self.result = 40, result
+
+        def __repr__(self):
+            return "<broken>"
+
+        def __call__(self, index):
+            return self.result(len(index))
+
+    def above_one(count):
+        return np.linspace(0, 1.5, count * 4).reshape(count, 4)
+
+    for result, kind, message in ((lambda n: np.zeros((3, 4)), TypeError, r"an array of shape \(3, 4\), expected \(40, 4\)"),
+                                  (lambda n: np.zeros(n), TypeError, r"an array of shape \(40,\)"),
+                                  (lambda n: [["red"] * 4] * n, TypeError, "<broken> gives no colours: could not convert"),
+                                  (lambda n: 1 / 0, TypeError, "<broken> gives no colours: division by zero"),
+                                  (lambda n: None, TypeError, "<broken> gives an array of shape"),
+                                  (lambda n: np.full((n, 4), np.nan), ValueError, "gives nan in a colour, expected numbers"),
+                                  (above_one, ValueError, "gives 1.0.* in a colour")):
+        with pytest.raises(kind, match=message):
+            drawn(blob, cmap=Broken(result))
 
 
 def test_a_scenes_map_in_hu_on_other_data_is_warned_of(blob):
@@ -128,16 +156,23 @@ def test_mistakes_are_named(blob):
     for words, message in (({"up": "z"}, "up z: expected"), ({"view": "north"}, "view north: expected"),
                            ({"preset": "bone"}, "preset bone: expected one of ct-bone"), ({"clip": "x"}, "clip x: expected"),
                            ({"preset": "ct-bone"}, "expected HU for ct-bone"), ({"clim": (2, 1)}, "range 2.0,1.0: expected"),
-                           ({"opacity": [0, 2]}, "opacity 0.0,2.0: expected linear"), ({"opacity": [0, 0]}, "not all 0"),
-                           ({"opacity": [(1, 0), (0, 1)]}, "with rising values")):
+                           ({"opacity": [0, 2]}, "opacity 0.0,2.0: expected numbers from 0 to 1, found 2.0"), ({"opacity": [0, 0]}, "a number above 0"),
+                           ({"opacity": [(1, 0), (0, 1)]}, "rising values, found 0 after 1")):
         with pytest.raises(lamina.Error, match=message):
             drawn(blob, **words)
     for words, message in (({"clim": 3}, "clim: found 3, expected two numbers"), ({"up": 3}, "up: found 3, expected a word"),
                            ({"zoom": "big"}, "zoom: found 'big', expected a number"),
                            ({"crop": (1, 2)}, "crop: found"), ({"opacity": [1]}, "opacity: found"),
-                           ({"opacity": [(1, 2, 3), (1, 2, 3)]}, "opacity: found"), ({"cmap": 3}, "cmap: found 3")):
+                           ({"opacity": [(1, 2, 3), (1, 2, 3)]}, "opacity: found"), ({"cmap": 3}, "cmap: found 3"),
+                           ({"light": False}, "light: found False, expected a word; lighting=False draws without light"),
+                           ({"camera": 3}, "camera: found 3, expected a lamina.Camera, a dictionary"),
+                           ({"transfer_function": "viridis"}, "found 'viridis', expected a lamina.TransferFunction"),
+                           ({"transfer_function": [(0, "black", 0)]}, "expected a lamina.TransferFunction")):
         with pytest.raises(TypeError, match=message):
             drawn(blob, **words)
+    for word in ("view", "opacity", "crop", "cmap"):
+        with pytest.raises(ValueError, match=f"{word}: found '', expected a word"):
+            drawn(blob, **{word: ""})
 
 
 def test_a_turntable_keeps_the_height_of_its_eye(blob):

@@ -77,12 +77,29 @@ TEST(ChangedClip, SaysWhyAPictureShowsNothing) {
                         Image(scene.width, scene.height));
         return heard.all();
     };
-    EXPECT_NE(warning_of({{}, ClipBox{{1.5, 0, 0}, {2, 1, 1}}})
-                  .find("shows nothing: the clip cuts all of the data away"),
-              std::string::npos);
-    EXPECT_NE(warning_of({{{{.6, 0, 0}, {1, 0, 0}}, {{.4, 0, 0}, {-1, 0, 0}}}, {}})
-                  .find("in what the clip keeps"),
-              std::string::npos);
+    const std::string all = "shows nothing: the clip cuts all of the data away";
+    const ClipPlane right{{.6, 0, 0}, {1, 0, 0}}, left{{.4, 0, 0}, {-1, 0, 0}};
+    const ClipPlane beyond{{1.1, 1.1, 0}, {1, 1, 0}};
+    EXPECT_NE(warning_of({{}, ClipBox{{1.5, 0, 0}, {2, 1, 1}}}).find(all), std::string::npos);
+    EXPECT_NE(warning_of({{}, ClipBox{{.5, 0, 0}, {.5, 1, 1}}}).find(all), std::string::npos);
+    EXPECT_NE(warning_of({{right, left}, {}}).find(all), std::string::npos);
+    EXPECT_NE(warning_of({{beyond}, {}}).find(all), std::string::npos);
+    // No single half-space cuts all of this away.
+    EXPECT_NE(warning_of({{left}, ClipBox{{.5, 0, 0}, {1, 1, 1}}}).find(all), std::string::npos);
+    EXPECT_NE(warning_of({{right}, {}}).find("in what the clip keeps"), std::string::npos);
+    EXPECT_EQ(warning_of({}).find("clip"), std::string::npos);
+}
+
+TEST(ChangedClip, CutsAMeshAwayThatIsSmallerThanItsBox) {
+    MeshData data;
+    data.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    data.tets = {{0, 1, 2, 3}};
+    data.point_scalars = {{"s", {0, 1, 2, 3}}};
+    const SceneMesh tet = scene_mesh(Scene(), std::move(data));
+    const MeshField field(tet);
+    EXPECT_TRUE(field.cut_away_by({{{{.5, .5, .1}, {1, 1, 1}}}, {}}));
+    EXPECT_FALSE(field.cut_away_by({{{{.4, .4, .1}, {1, 1, 1}}}, {}}));
+    EXPECT_FALSE(field.cut_away_by({}));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct BadScene {
 
 TEST(SceneErrors, NameFileKeyFoundAndExpected) {
     const std::vector<BadScene> cases = {
-        {"/version", 2, {"version", "found 2", "from 1 to 1"}},
+        {"/version", 2, {"version: found 2, expected 1"}},
         {"/colour", 1, {"colour: unknown key", "expected one of camera"}},
         {"/render/slice/sample", 8, {"render.slice.sample: unknown key", "\"samples\""}},
         {"/render/slice/samples", 0, {"render.slice.samples: found 0", "from 1 to 65536"}},

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "base/client.h"
@@ -70,7 +72,16 @@ Film::Film(const OutputOptions& options, const OutputScene& scene, const DataSer
 }
 
 std::string Film::draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes attributes) {
-    frames_->draw(pipeline, run, std::move(attributes));
+    try {
+        frames_->draw(pipeline, run, std::move(attributes));
+    } catch (const Interrupted&) {
+        const auto exists = [](const auto& path) { return std::filesystem::exists(path); };
+        if (std::ranges::any_of(frames_->pictures(), exists)) throw;
+        const ClientScope scope(finishing_client());
+        // Or else the same command would ask for --resume.
+        if (exists(name_ + ".frames")) frames_->remove_all();
+        throw Interrupted("interrupted, nothing written");
+    }
     const std::size_t frames = frames_->pictures().size();
     try {
         film_->write(*file_, frames, [pictures = frames_->pictures()](std::size_t i) {
@@ -86,7 +97,7 @@ std::string Film::draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes
     }
     file_->commit();
     frames_->remove_all();
-    return fmt::format("{}, {} frames, {} a second", name_, frames, rate_);
+    return fmt::format("{}, {} frame{}, {} a second", name_, frames, frames == 1 ? "" : "s", rate_);
 }
 
 }  // namespace lamina

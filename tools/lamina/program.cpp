@@ -11,6 +11,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -72,10 +73,10 @@ void release_reserve() {
     throw std::bad_alloc();
 }
 
-std::string verbs_of(const CLI::App& app) {
-    std::vector<std::string> names;
-    for (const CLI::App* const verb : app.get_subcommands({})) names.push_back(verb->get_name());
-    return fmt::format("{}", fmt::join(names, ", "));
+std::set<std::string> verbs_of(const CLI::App& app) {
+    std::set<std::string> names;
+    for (const CLI::App* const verb : app.get_subcommands({})) names.insert(verb->get_name());
+    return names;
 }
 
 // Tells whether the text names data that are there: a file or a folder, or an array in one.
@@ -99,7 +100,13 @@ bool has_display() {
 std::vector<char*> with_verb(const CLI::App& app, int argc, char** argv) {
     static char view[] = "view";
     std::vector<char*> arguments(argv, argv + argc);
-    if (argc < 2 || argv[1][0] == '-') return arguments;
+    const bool is_option = argc > 1 && argv[1][0] == '-';
+    if (argc < 2 || (is_option && app.get_option_no_throw(argv[1]) == nullptr)) {
+        throw UsageError(fmt::format("{}expected a verb, one of {} ({} --help shows the usage)",
+                                     is_option ? std::string(argv[1]) + ": " : "",
+                                     fmt::join(verbs_of(app), ", "), app.get_name()));
+    }
+    if (is_option) return arguments;
     const std::string first = argv[1];
     bool can_view = false;
     for (const CLI::App* const verb : app.get_subcommands({})) {
@@ -107,9 +114,8 @@ std::vector<char*> with_verb(const CLI::App& app, int argc, char** argv) {
         can_view |= verb->get_name() == view;
     }
     if (!can_view || !names_data(first)) {
-        throw UsageError(
-            fmt::format("{}: unknown verb, expected one of {} ({} --help shows the usage)", first,
-                        verbs_of(app), app.get_name()));
+        throw UsageError(fmt::format("{}: unknown verb{} ({} --help shows the usage)", first,
+                                     suggestion(verbs_of(app), first), app.get_name()));
     }
     const char* const problem = !has_display()                 ? "there is no display to show it on"
                                 : !find_program("lamina-view") ? "lamina-view is not installed"
@@ -136,6 +142,36 @@ void fill_in_light(std::vector<char*>& arguments) {
     }
 }
 
+// Words that a script leaves empty would count as not given.
+std::string not_empty(const std::string& text) {
+    return text.empty() ? "found '', expected a value" : "";
+}
+
+// Returns what CLI11 says of numbers (NAME = FOUND, or NAME: Value FOUND not in range FROM to TO)
+// in lamina's form; nothing of other texts.
+std::optional<std::string> text_of_number(const std::string& text) {
+    const auto between = [&](std::string_view before, std::string_view after) {
+        const std::size_t from = text.find(before) + before.size();
+        return text.substr(from, text.find(after, from) - from);
+    };
+    if (const std::string_view start = "Could not convert: "; text.starts_with(start)) {
+        double number = 0;
+        const std::string found = text.substr(text.find(" = ") + 3);
+        const bool whole = CLI::detail::lexical_cast(found, number);  // but no fraction
+        return fmt::format("{}: found {}, expected a {}", between(start, " = "), shortened(found),
+                           whole ? "whole number" : "number");
+    }
+    const std::string_view value = ": Value ", beyond = " not in range ";
+    const std::size_t at = text.find(beyond);
+    if (at == text.npos || text.find(value) > at) return std::nullopt;
+    const std::string bounds = text.substr(at + beyond.size());
+    double least = 0, most = 0;
+    std::sscanf(bounds.c_str(), "%lf to %lf", &least, &most);
+    return fmt::format("{}: found {}, expected a {} from {:.9g} to {:.9g}",
+                       text.substr(0, text.find(value)), shortened(between(value, beyond)),
+                       bounds.find('.') == bounds.npos ? "whole number" : "number", least, most);
+}
+
 // Returns what CLI11 found wrong, for people.
 std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
     const std::string text = one_line(error.what());
@@ -144,6 +180,7 @@ std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
         return fmt::format("{}: found {} times, expected once", text.substr(0, at),
                            text.substr(at + twice.size()));
     }
+    if (const auto number = text_of_number(text)) return *number;
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && text.ends_with(" missing"))
         return text.substr(0, text.find(':')) + ": expected a value after it";
     if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return text;
@@ -154,9 +191,16 @@ std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
         const std::vector<std::string> extras = verb->remaining();
         if (extras.empty()) continue;
         const std::string& first = extras.front();
-        if (!first.starts_with("--")) return fmt::format("{}: not expected here", first);
-        // A list of all options would say less than --help.
-        const std::string near = suggestion(known, first.substr(0, first.find('=')));
+        if (!first.starts_with("-")) {
+            const CLI::Option* const output = verb->get_option_no_throw("--output");
+            const bool is_output = output != nullptr && output->empty();
+            return fmt::format("{}: not expected here{}", first,
+                               is_output ? fmt::format(", did you mean -o {}?", first) : "");
+        }
+        // A list of all options would say less than --help. -size is --size with a dash missing.
+        const std::string whole = first.substr(0, first.find('='));
+        const bool is_word = !whole.starts_with("--") && whole.size() > 2;
+        const std::string near = suggestion(known, (is_word ? "-" : "") + whole);
         return fmt::format("{}: no such option{}", first, near.starts_with(", did") ? near : "");
     }
     return text;
@@ -172,8 +216,12 @@ int run(const Program& program, int argc, char** argv) {
     for (CLI::App* const verb : app.get_subcommands({})) {
         verb->set_version_flag("--version", version_text);
         // --help shows no type beside positional arguments: their names suffice.
-        for (CLI::Option* const option : verb->get_options())
+        for (CLI::Option* const option : verb->get_options()) {
+            // Before the verb's own checks, so that they get a text.
+            if (option->get_expected_max() > 0)
+                option->transform(CLI::Validator(not_empty, "", ""));
             if (option->get_positional()) option->type_name("");
+        }
     }
     std::vector<char*> arguments = with_verb(app, argc, argv);
     fill_in_light(arguments);
@@ -184,8 +232,11 @@ int run(const Program& program, int argc, char** argv) {
         exit_code = app.exit(success, text, text);
         write_result(text.str());
     } catch (const CLI::ParseError& error) {
-        return report(
-            fmt::format("{} ({} --help shows the usage)", text_of(error, app), program.name), 2);
+        const std::vector<CLI::App*> verbs = app.get_subcommands();
+        const std::string verb = verbs.empty() ? "" : " " + verbs.front()->get_name();
+        return report(fmt::format("{} ({}{} --help shows the usage)", text_of(error, app),
+                                  program.name, verb),
+                      2);
     }
     flush_results();
     return exit_code;
