@@ -38,6 +38,8 @@ constexpr PhaseAttribute phase_attributes[] = {
     {dicom_tag::acquisition_time, "AcquisitionTime", false},
     {dicom_tag::frame_acquisition, "FrameAcquisitionDateTime", false},
     {dicom_tag::diffusion_b, "DiffusionBValue"},
+    {dicom_tag::inversion_time, "InversionTime"},
+    {dicom_tag::flip_angle, "FlipAngle"},
     {dicom_tag::time_slots, "TimeSlotVector"},
     {dicom_tag::energy_windows, "EnergyWindowVector"},
     {dicom_tag::frame_pointer, "the number of the frame"},

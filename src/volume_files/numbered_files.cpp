@@ -64,22 +64,6 @@ struct NameParts {
     std::vector<std::string> numbers;  // without zeros in front
 };
 
-// Returns "3, 7 to 9": the numbers between those of an increasing series that are no steps of it.
-std::string gaps_of(const std::vector<std::int64_t>& numbers) {
-    std::int64_t step = std::numeric_limits<std::int64_t>::max();
-    for (std::size_t i = 1; i < numbers.size(); ++i)
-        step = std::min(step, numbers[i] - numbers[i - 1]);
-    std::string gaps;
-    if (step < 1) return gaps;  // numbers that are too large for whole_number()
-    for (std::size_t i = 1; i < numbers.size() && gaps.size() < 100; ++i) {
-        const std::int64_t first = numbers[i - 1] + step, last = numbers[i] - step;
-        if (first > last) continue;
-        gaps += fmt::format("{}{}", gaps.empty() ? "" : ", ", first);
-        if (last > first) gaps += fmt::format(" to {}", last);
-    }
-    return gaps;
-}
-
 }  // namespace
 
 std::vector<std::string> words_of(const std::string& text) {
@@ -138,6 +122,21 @@ std::vector<std::filesystem::path> files_in_folder(const std::filesystem::path& 
         return comes_before(a.filename().string(), b.filename().string());
     });
     return files;
+}
+
+std::string gaps_of(const std::vector<std::int64_t>& numbers) {
+    std::int64_t step = std::numeric_limits<std::int64_t>::max();
+    for (std::size_t i = 1; i < numbers.size(); ++i)
+        step = std::min(step, numbers[i] - numbers[i - 1]);
+    std::string gaps;
+    if (step < 1) return gaps;  // numbers that are too large for whole_number()
+    for (std::size_t i = 1; i < numbers.size() && gaps.size() < 100; ++i) {
+        const std::int64_t first = numbers[i - 1] + step, last = numbers[i] - step;
+        if (first > last) continue;
+        gaps += fmt::format("{}{}", gaps.empty() ? "" : ", ", first);
+        if (last > first) gaps += fmt::format(" to {}", last);
+    }
+    return gaps;
 }
 
 void warn_of_series(const std::string& name, const char* kind,
