@@ -71,7 +71,7 @@ std::vector<unsigned> volume_axes(const std::string& file, const Nrrd& nrrd) {
     if (axes.size() != 3) {
         fail(
             "{}: dimension: found {} axes (sizes {}), {} of them in space by kinds, directions "
-            "and spacings, expected 3",
+            "and spacings, expected 3: \"kinds\" says which of more are others (time, list)",
             file, nrrd.dim, fmt::join(sizes, " "), axes.size());
     }
     for (const unsigned axis : axes) {

@@ -25,15 +25,18 @@ using Path = std::filesystem::path;
 struct OtherStore {
     const char* file;
     const char* word;  // in the file
-    const char* name;
+    const char* name;  // and what to do, to end a message
 };
-constexpr OtherStore other_stores[] = {
-    {"attributes.json", "\"n5\"", "N5"},
-    {"attributes.json", "\"blockSize\"", "N5"},
-    {"info", "neuroglancer_multiscale_volume", "Neuroglancer precomputed"},
-    {"info", "\"num_channels\"", "Neuroglancer precomputed"},
-    {"__tiledb_group.tdb", "", "TileDB"},
-    {"__schema", "", "TileDB"}};
+constexpr const char *n5 = "N5, expected Zarr: zarr.N5Store reads it, zarr.save writes Zarr",
+                     *neuroglancer =
+                         "Neuroglancer precomputed, expected Zarr: tensorstore copies it to Zarr",
+                     *tiledb = "TileDB, expected Zarr: tiledb reads it, zarr.save writes Zarr";
+constexpr OtherStore other_stores[] = {{"attributes.json", "\"n5\"", n5},
+                                       {"attributes.json", "\"blockSize\"", n5},
+                                       {"info", "neuroglancer_multiscale_volume", neuroglancer},
+                                       {"info", "\"num_channels\"", neuroglancer},
+                                       {"__tiledb_group.tdb", "", tiledb},
+                                       {"__schema", "", tiledb}};
 
 // Returns the kind of a folder of arrays that is not Zarr; null for other folders.
 const char* other_store(const Path& folder) {
@@ -290,7 +293,7 @@ bool is_zarr(const Path& path) {
 
 Volume open_zarr(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
     if (const char* const other = ZarrStore().has_header(path) ? nullptr : other_store(path))
-        fail("{}: found a folder of {}, expected Zarr", path.string(), other);
+        fail("{}: found a folder of {}", path.string(), other);
     const ZarrStore store(path);
     const Path root = store.root(path.has_filename() ? path : path.parent_path());
     VolumeContents contents;
