@@ -373,3 +373,8 @@ def folders(cases, tifffile):
     stacks = values_of("uint16", (6, 3, 10, 12), seed=57)
     folder("stacks", [(f"t{t}", stacks[t]) for t in range(6)], metadata={"axes": "ZYX"})
     cases.add("stacks", stacks[4], time=4)
+    folder("bare_stacks", [(f"t{t}", stacks[t]) for t in range(6)], metadata=None)
+    cases.add("bare_stacks", stacks[0], warnings=["the axis of 6 has no name and is taken for times"])
+    cases.add("bare_stacks", stacks[4], time=4)
+    folder("split_stack", [("s1", stacks[0]), ("s2", stacks[1, :2])], metadata=None)
+    cases.add("split_stack", np.concatenate([stacks[0], stacks[1, :2]]), warnings=["all are taken for slices"])
