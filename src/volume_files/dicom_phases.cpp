@@ -156,10 +156,9 @@ void remove_twins(Places& places, const std::string& file) {
         place = std::move(kept);
     }
     if (removed > 0) {
-        warn(fmt::format(
-            "{}: found {} slices too many, with the place and pixels of others: they are "
+        say("{}: found {} slices too many, with the place and pixels of others: they are "
             "not used",
-            file, removed));
+            file, removed);
     }
 }
 
@@ -220,8 +219,8 @@ std::vector<DicomSlice> slices_of_time(Places places, const std::string& file,
                 "EchoTime or AcquisitionTime",
                 file, places[0].size(), places[0][0].name());
         }
-        warn(fmt::format("{}: the {} images at each place are times: {} tells them apart", file,
-                         places[0].size(), key->name()));
+        say("{}: the {} images at each place are times: {} tells them apart", file,
+            places[0].size(), key->name());
         for (auto& place : places) {
             std::ranges::sort(place, {},
                               [&](const DicomSlice& slice) { return *value_of(slice, *key); });

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "volume_files/dicom_phases.h"
 #include "volume_files/numbered_files.h"
@@ -336,22 +335,19 @@ void place_by_numbers(std::vector<DicomImage>& images, const std::string& name) 
         sorted[i]->place_words = by_location ? "SliceLocation" : "InstanceNumber";
     }
     if (by_location) {
-        warn(fmt::format("{}: found no ImagePositionPatient: slices lie at their SliceLocation",
-                         name));
+        say("{}: found no ImagePositionPatient: slices lie at their SliceLocation", name);
         return;
     }
     const std::string words = images[0].spacing_words;
-    warn(
-        fmt::format("{}: found no ImagePositionPatient: slices are taken in the order of "
-                    "InstanceNumber, {} mm apart ({}); \"spacing\" in the volume sets another",
-                    name, spacing, words.empty() ? "no file says it" : words));
+    say("{}: found no ImagePositionPatient: slices are taken in the order of "
+        "InstanceNumber, {} mm apart ({}); \"spacing\" in the volume sets another",
+        name, spacing, words.empty() ? "no file says it" : words);
     std::vector<std::int64_t> numbers;
     for (const DicomImage* image : sorted) numbers.push_back(std::llround(*image->number));
     if (const std::string gaps = gaps_of(numbers); !gaps.empty()) {
-        warn(
-            fmt::format("{}: InstanceNumber: {} are missing: the slices beside a gap are "
-                        "neighbours here",
-                        name, gaps));
+        say("{}: InstanceNumber: {} are missing: the slices beside a gap are "
+            "neighbours here",
+            name, gaps);
     }
 }
 
@@ -370,10 +366,9 @@ SliceLine fitted_line(const std::vector<SlicePlace>& slices, const std::string& 
              slice->name);
     }
     const auto [least, most] = std::ranges::minmax(distances);
-    warn(fmt::format(
-        "{}: {}: slices are {:.6g} to {:.6g} mm apart: they are placed {:.6g} mm apart on the "
+    say("{}: {}: slices are {:.6g} to {:.6g} mm apart: they are placed {:.6g} mm apart on the "
         "straight line nearest to them, which moves them by up to {:.2g} mm",
-        file, words, least, most, distance, shift));
+        file, words, least, most, distance, shift);
     return line;
 }
 

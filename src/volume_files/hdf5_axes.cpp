@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cmath>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/json_text.h"
@@ -123,8 +122,8 @@ class AxisReader {
         if (!is_any_known) return;
         described.steps = steps;
         if (!unknown.empty()) {
-            warn(fmt::format("{}: axistags: the resolution {} is unknown: 1 is taken",
-                             array_.name(), fmt::join(unknown, ", ")));
+            say("{}: axistags: the resolution {} is unknown: 1 is taken", array_.name(),
+                fmt::join(unknown, ", "));
         }
     }
 
@@ -173,9 +172,8 @@ class AxisReader {
         if (text_of(array_.id(), "CLASS") != "IMAGE") return;
         const std::string kind = text_of(array_.id(), "IMAGE_SUBCLASS");
         if (kind == "IMAGE_INDEXED" || H5Aexists(array_.id(), "PALETTE") > 0)
-            warn(fmt::format(
-                "{}: its colours (PALETTE) are not used: the values are indices of them",
-                array_.name()));
+            say("{}: its colours (PALETTE) are not used: the values are indices of them",
+                array_.name());
         if (kind != "IMAGE_TRUECOLOR" || described.axes.size() != 3) return;
         const std::string order = text_of(array_.id(), "INTERLACE_MODE");
         for (ArrayAxis& axis : described.axes) axis.name.clear();
@@ -217,10 +215,9 @@ class AxisReader {
         const bool is_matlab = H5Aexists(array_.id(), "MATLAB_class") > 0;
         const Hdf5Handle group = files_.group(parents_[0]);
         if (!is_matlab && H5Aexists(group.id(), "OCTAVE_NEW_FORMAT") <= 0) return;
-        warn(
-            fmt::format("{}: {} has written it: its first axis (rows) is taken for x, its second "
-                        "(columns) for y",
-                        array_.name(), is_matlab ? "MATLAB" : "Octave"));
+        say("{}: {} has written it: its first axis (rows) is taken for x, its second "
+            "(columns) for y",
+            array_.name(), is_matlab ? "MATLAB" : "Octave");
     }
 
     // Reads distances and places from attributes of the array or, if it has none, of its groups.
@@ -242,8 +239,8 @@ class AxisReader {
         }
         const std::vector<double> value = numbers_of(array_.id(), "unitSI");
         if (value.size() == 1 && value[0] != 1) {
-            warn(fmt::format("{}: unitSI {}: values are as they are stored, not in SI units",
-                             array_.name(), value[0]));
+            say("{}: unitSI {}: values are as they are stored, not in SI units", array_.name(),
+                value[0]);
         }
     }
 

@@ -10,9 +10,9 @@
 #include <sstream>
 #include <system_error>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "image/picture.h"
+#include "volume_files/stored_samples.h"
 
 namespace lamina {
 namespace {
@@ -143,8 +143,7 @@ void warn_of_series(const std::string& name, const char* kind,
                     const std::vector<std::filesystem::path>& files) {
     const std::size_t all = files_in_folder(name).size();  // 0 for a file
     if (all > files.size()) {
-        warn(fmt::format("{}: {} of {} files are no {}, and not used", name, all - files.size(),
-                         all, kind));
+        say("{}: {} of {} files are no {}, and not used", name, all - files.size(), all, kind);
     }
     if (files.size() < 2) return;
     std::map<std::string, std::vector<NameParts>> series;
@@ -153,10 +152,9 @@ void warn_of_series(const std::string& name, const char* kind,
         series[parts.text].push_back(parts);
     }
     if (series.size() == files.size()) {
-        warn(
-            fmt::format("{}: the names of its {} files do not differ in a number alone: they are "
-                        "taken in alphabetical order",
-                        name, files.size()));
+        say("{}: the names of its {} files do not differ in a number alone: they are "
+            "taken in alphabetical order",
+            name, files.size());
         return;
     }
     if (series.size() > 1) {
@@ -188,10 +186,9 @@ void warn_of_series(const std::string& name, const char* kind,
         numbers.push_back(whole_number("0" + each.numbers[changing[0]]).value_or(0));
     const std::string gaps = gaps_of(numbers);
     if (!gaps.empty()) {
-        warn(fmt::format(
-            "{}: in the series '{}' the numbers {} are missing: the slices beside a gap "
+        say("{}: in the series '{}' the numbers {} are missing: the slices beside a gap "
             "are neighbours here",
-            name, text, gaps));
+            name, text, gaps);
     }
 }
 

@@ -91,9 +91,8 @@ class ArraySearch {
 
     void say_if_cut() const {
         if (!is_cut_) return;
-        warn(fmt::format(
-            "{}: found more than {} folders, {} arrays or {} levels: the rest is not listed",
-            root_.string(), ZarrStore::most_folders, most_arrays, most_depth));
+        say("{}: found more than {} folders, {} arrays or {} levels: the rest is not listed",
+            root_.string(), ZarrStore::most_folders, most_arrays, most_depth);
     }
 
   private:
@@ -140,7 +139,7 @@ ZarrImage image_of(const ZarrStore& store, const Path& array) {
             level = level_of(node, array);
         } catch (const Error& problem) {
             // A client that may read the array may be kept from what lies above it.
-            if (!is_restricted()) warn(fmt::format("{}: {}", array.string(), problem.what()));
+            if (!is_restricted()) say("{}: {}", array.string(), problem.what());
         }
     }
     if (level) return read_ome_image(node, level);
@@ -196,8 +195,8 @@ void list_contents(const ZarrStore& store, const Path& root, const ZarrImage& im
 // Gives channels the names that the image has for them.
 void name_channels(const ZarrImage& image, std::vector<std::string>& channels) {
     if (!image.channels.empty() && image.channels.size() != channels.size()) {
-        warn(fmt::format("{}: omero: found {} channels, expected {}, as the array has",
-                         image.folder.string(), image.channels.size(), channels.size()));
+        say("{}: omero: found {} channels, expected {}, as the array has", image.folder.string(),
+            image.channels.size(), channels.size());
     }
     for (std::size_t i = 0; i < std::min(channels.size(), image.channels.size()); ++i)
         channels[i] = one_line(image.channels[i]);
@@ -237,8 +236,8 @@ void fit_axes(ZarrImage& image, const ZarrArray& array) {
     image.axes.erase(image.axes.begin(), image.axes.begin() + surplus);
     image.steps.erase(image.steps.begin(), image.steps.begin() + surplus);
     image.firsts.erase(image.firsts.begin(), image.firsts.begin() + surplus);
-    warn(fmt::format("{}: the image does not name its {} axes: the last of t, c, z, y, x are taken",
-                     array.folder.string(), rank));
+    say("{}: the image does not name its {} axes: the last of t, c, z, y, x are taken",
+        array.folder.string(), rank);
 }
 
 }  // namespace
@@ -314,8 +313,8 @@ Volume open_zarr(const Path& path, const VolumeRequest& request, const VolumeUse
     }
     ZarrChunks chunks(array, {{placed.axes[2], placed.axes[1], placed.axes[0]}, placed.index});
     if (chunks.missing() > 0) {
-        warn(fmt::format("{}: {} of {} chunks are not there: they have the fill value {}",
-                         array.folder.string(), chunks.missing(), chunks.count(), array.fill_text));
+        say("{}: {} of {} chunks are not there: they have the fill value {}", array.folder.string(),
+            chunks.missing(), chunks.count(), array.fill_text);
     }
     if (image.is_labels)
         take_for_labels(array.folder.string(), "the OME-Zarr image", use, placed.grid);
