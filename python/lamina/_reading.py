@@ -36,6 +36,8 @@ def read(file: Path, *, only_below: Path | None = None, **selection: Any) -> Vol
     """
     path, folder = pathlib.Path(file), folder_name(only_below)
     kind = "volume" if selection else _lamina.kind_of_file(path, folder)
+    if kind == "scene" and not path.exists():
+        raise Error(f"{path}: no such file")
     if kind == "scene":
         raise Error(f"{path}: holds a scene, expected a volume or a mesh; lamina.Scene.load reads scenes")
     absolute = path.absolute()

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from . import _conversion, _lamina
+from ._errors import PictureWarning, warn
 from ._mesh import Mesh
 from ._volume import Volume
 
@@ -31,6 +32,8 @@ class Sampler:
     def __init__(self, data: Volume | Mesh | Any, scalar: str | None = None) -> None:
         if isinstance(data, Mesh):
             self._core = _lamina.Sampler.of_mesh(data._core, scalar or "")
+            if scalar is None and not data._core.point_scalars:
+                warn(f'"{next(iter(data.scalars))}" is cell data: averaged to points', PictureWarning)
             return
         if scalar is not None:
             raise TypeError("scalar: found a name, expected none: a volume has one scalar")

@@ -173,7 +173,7 @@ class LabelTable {
 std::string label_text(const LabelTable& labels, bool known, std::optional<std::size_t> background,
                        const std::optional<ValueRange>& range) {
     std::string text = fmt::format("{} {}", labels.size(),
-                                   !known               ? "whole numbers are taken for labels"
+                                   !known               ? "whole numbers look like labels"
                                    : labels.size() == 1 ? "label"
                                                         : "labels");
     if (background) {

@@ -276,7 +276,7 @@ ValueDistribution VolumeField::distribution() const {
 std::optional<BorderlessField> VolumeField::without_border() const {
     if (volume_.grid().lookup == VolumeLookup::nearest) return std::nullopt;
     std::optional<ConstantBorder> border = find_constant_border(volume_, bricks_.whole);
-    if (!border) return std::nullopt;
+    if (!border || lies_in_pieces()) return std::nullopt;  // labels around others are no border
     BorderlessField result;
     for (const BorderLayers& layers : border->layers) {
         const glm::dvec3 inward = volume_.grid().step[layers.axis];

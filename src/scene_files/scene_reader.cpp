@@ -22,16 +22,16 @@ namespace lamina {
 FileKind kind_of_file(const std::filesystem::path& file, const std::filesystem::path& only_below) {
     const OnlyBelowScope scope(only_below);
     expect_no_foreign_mesh(file);
+    // No other format begins with a brace, so a scene may have any name.
+    const std::string beginning = file_beginning(file, 64);
+    const std::size_t first = beginning.find_first_not_of(" \t\r\n");
+    if (first != std::string::npos && beginning[first] == '{') return FileKind::scene;
     if (is_volume_file(file)) return FileKind::volume;
     if (is_mesh_file(file)) return FileKind::mesh;
     expect_no_folder(file);
     expect_no_foreign_file(file);
-    const std::string beginning = file_beginning(file, 64);
-    const std::size_t first = beginning.find_first_not_of(" \t\r\n");
     // A file that cannot be read counts as a scene, whose reader says what is wrong.
-    const bool scene = file.extension() == ".json" || beginning.empty() ||
-                       (first != std::string::npos && beginning[first] == '{');
-    if (scene) return FileKind::scene;
+    if (file.extension() == ".json" || beginning.empty()) return FileKind::scene;
     fail(
         "{}: unknown kind of file: expected a scene (JSON), a volume ({}) or a mesh (.vtu, .pvtu, "
         ".pvd, .vtk, .node, .ele), or raw samples with their size and type (--raw)",

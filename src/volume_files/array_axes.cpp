@@ -11,7 +11,6 @@
 #include <span>
 #include <string_view>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "volume_files/stored_data.h"
 
@@ -217,8 +216,8 @@ class RoleFinder {
     void say_guess(int number, const std::string& role) const {
         const ArrayAxis& axis = array_.axes[static_cast<std::size_t>(number)];
         if (axis.name.empty() || axis.size == 1) return;
-        warn(fmt::format("{}: the axis \"{}\" of {} is taken for {}, by its place among the axes",
-                         array_.name, one_line(axis.name), axis.size, role));
+        say("{}: the axis \"{}\" of {} is taken for {}, by its place among the axes", array_.name,
+            one_line(axis.name), axis.size, role);
     }
 
     // Takes the index that is wanted on the axis of channels or times, if there is one.
@@ -260,17 +259,15 @@ std::string place_axis(const DescribedArray& array, Grid& grid, int i, int axis,
         grid.origin[i] = placed->first;
         const double deviation = placed->deviation;
         if (deviation > unsaid_deviation) {
-            warn(
-                fmt::format("{}: the coordinates of {} are taken as equally spaced, which moves "
-                            "samples by up to {:.2g} of their distance",
-                            array.name, "xyz"[i], deviation));
+            say("{}: the coordinates of {} are taken as equally spaced, which moves "
+                "samples by up to {:.2g} of their distance",
+                array.name, "xyz"[i], deviation);
         }
         return found.unit;
     }
     if (found.coordinates.size() > 1) {
-        warn(fmt::format(
-            "{}: the coordinates of {} are not equally spaced: its samples are taken 1 apart",
-            array.name, "xyz"[i]));
+        say("{}: the coordinates of {} are not equally spaced: its samples are taken 1 apart",
+            array.name, "xyz"[i]);
         return {};
     }
     if (found.coordinates.size() == 1 && std::isfinite(found.coordinates[0]))
@@ -309,16 +306,16 @@ std::vector<double> usable_numbers(const DescribedArray& array, const ArrayAttri
         return std::isfinite(number) && (number != 0 || !are_steps);
     });
     if (!good || (count != 1 && count != 3 && count != array.axes.size())) {
-        warn(fmt::format("{}: {}: found {}, expected a number for each axis: it is not used",
-                         array.name, key, fmt::join(numbers, ", ")));
+        say("{}: {}: found {}, expected a number for each axis: it is not used", array.name, key,
+            fmt::join(numbers, ", "));
         return {};
     }
     constexpr std::string_view defined[] = {"element_size_um", "gridSpacing", "gridGlobalOffset"};
     const bool differ =
         std::ranges::adjacent_find(numbers, std::ranges::not_equal_to()) != numbers.end();
     if (differ && std::ranges::find(defined, std::string_view(key)) == std::end(defined)) {
-        warn(fmt::format("{}: {} ({}) is taken in the order of the array's axes", array.name, key,
-                         fmt::join(numbers, ", ")));
+        say("{}: {} ({}) is taken in the order of the array's axes", array.name, key,
+            fmt::join(numbers, ", "));
     }
     return numbers;
 }
@@ -343,10 +340,9 @@ bool ends_with_channels(const std::string& file, const std::vector<std::int64_t>
                         const VolumeRequest& request) {
     const auto is_few = [](std::int64_t size) { return size >= 2 && size <= 4; };
     if (shape.size() != 4 || request.time || is_few(shape[0]) || !is_few(shape[3])) return false;
-    warn(fmt::format(
-        "{}: four axes without known names are taken for z, y, x and channel, because the "
+    say("{}: four axes without known names are taken for z, y, x and channel, because the "
         "last has {}: \"time\" in the volume takes the first for times",
-        file, shape[3]));
+        file, shape[3]);
     return true;
 }
 
@@ -400,10 +396,9 @@ ArrayPlace place_array(const DescribedArray& array, const VolumeRequest& request
             unit_word(place_axis(array, place.grid, i, axis, nth, count));
         if (i < 2 && !array.coordinates.empty() &&
             array.axes[static_cast<std::size_t>(axis)].coordinates.empty()) {
-            warn(fmt::format(
-                "{}: the coordinates \"{}\" are not along the axis {}: its samples are taken 1 "
+            say("{}: the coordinates \"{}\" are not along the axis {}: its samples are taken 1 "
                 "apart",
-                array.name, shortened(one_line(array.coordinates)), "xyz"[i]));
+                array.name, shortened(one_line(array.coordinates)), "xyz"[i]);
         }
     }
     unite_units(array.name, place.grid, units);

@@ -382,10 +382,9 @@ std::optional<Volume> open_bricked_copy(const Path& file, const VolumeRequest& r
     if (!std::filesystem::exists(folder, absent)) return {};
     expect_allowed(folder / ".zattrs");
     const auto is_not_used = [&](const char* why) {
-        warn(
-            fmt::format("{}: the bricks are {}, and are not used: lamina index --bricks makes "
-                        "them again",
-                        folder.string(), why));
+        say("{}: the bricks are {}, and are not used: lamina index --bricks makes "
+            "them again",
+            folder.string(), why);
         return std::nullopt;
     };
     try {

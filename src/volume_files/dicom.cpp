@@ -65,12 +65,12 @@ std::map<std::string, Images> images_by_series(const Path& path) {
         fail("{}: found no DICOM images in it", path.string());
     }
     if (others > 0) {
-        warn(fmt::format("{}: {} of {} files are no DICOM images, and not used", path.string(),
-                         others, files.size()));
+        say("{}: {} of {} files are no DICOM images, and not used", path.string(), others,
+            files.size());
     }
     if (!refused.empty()) {
-        warn(fmt::format("{}: {} of {} files are set aside: {}: {}", path.string(), refused.size(),
-                         files.size(), refused[0].file.filename().string(), refused[0].refusal));
+        say("{}: {} of {} files are set aside: {}: {}", path.string(), refused.size(), files.size(),
+            refused[0].file.filename().string(), refused[0].refusal);
     }
     return series;
 }
@@ -115,10 +115,9 @@ Images chosen_series(const Path& path, const VolumeRequest& request, VolumeConte
     const auto largest = std::ranges::max_element(
         all, {}, [](const auto& entry) { return slices_in(entry.second); });
     if (all.size() > 1) {
-        warn(
-            fmt::format("{}: of the series {} the largest, {}, is drawn: \"array\" in the volume "
-                        "names another",
-                        path.string(), fmt::join(list, ", "), described(largest->second)));
+        say("{}: of the series {} the largest, {}, is drawn: \"array\" in the volume "
+            "names another",
+            path.string(), fmt::join(list, ", "), described(largest->second));
     }
     return std::move(largest->second);
 }
@@ -133,10 +132,9 @@ void remove_copies(Images& images, const std::string& name) {
         return !is_new && !image.instance_uid.empty() && earlier->second == place;
     });
     if (images.size() < count) {
-        warn(
-            fmt::format("{}: {} of {} files are copies of others, with the same SOPInstanceUID, "
-                        "and not used",
-                        name, count - images.size(), count));
+        say("{}: {} of {} files are copies of others, with the same SOPInstanceUID, "
+            "and not used",
+            name, count - images.size(), count);
     }
 }
 
@@ -183,10 +181,9 @@ Slices without_localizers(const Images& images, const std::string& name) {
         localizers.insert(localizers.end(), group->begin(), group->end());
     }
     if (!localizers.empty()) {
-        warn(fmt::format(
-            "{}: set aside {} of {} slices, localizers or of another "
+        say("{}: set aside {} of {} slices, localizers or of another "
             "ImageOrientationPatient: {}",
-            name, localizers.size(), localizers.size() + kept.size(), some_names(localizers)));
+            name, localizers.size(), localizers.size() + kept.size(), some_names(localizers));
     }
     return kept;
 }
@@ -262,13 +259,11 @@ void set_grid(DicomSeries& series) {
     const auto& [image, frame] = series.slices.front();
     std::vector<std::string> missing = image->missing;
     if (!frame->position) missing.emplace_back("ImagePositionPatient (0, 0, 0 is taken)");
-    if (!missing.empty())
-        warn(fmt::format("{}: found no {}", series.name, fmt::join(missing, ", no ")));
+    if (!missing.empty()) say("{}: found no {}", series.name, fmt::join(missing, ", no "));
     if (!image->inverse.empty()) {
-        warn(
-            fmt::format("{}: it says that its lowest value is white ({}): values are as they are "
-                        "stored",
-                        series.name, image->inverse));
+        say("{}: it says that its lowest value is white ({}): values are as they are "
+            "stored",
+            series.name, image->inverse);
     }
     SliceLine line{
         frame->position.value_or(glm::dvec3(0)),
@@ -360,10 +355,9 @@ class SliceReader {
             }
         }
         if (padded_ > 0) {
-            warn(fmt::format(
-                "{}: PixelPaddingValue: found it {} times: these samples hold no data, and "
+            say("{}: PixelPaddingValue: found it {} times: these samples hold no data, and "
                 "are drawn like others",
-                series_.name, padded_));
+                series_.name, padded_);
         }
         return samples_;
     }

@@ -30,6 +30,8 @@ constexpr DicomTag as_text[] = {tags::media_class,
                                 tags::slice_thickness,
                                 tags::echo_time,
                                 tags::echo_numbers,
+                                tags::inversion_time,
+                                tags::flip_angle,
                                 tags::slice_spacing,
                                 tags::trigger_time,
                                 tags::imager_pixel_spacing,
@@ -52,27 +54,19 @@ constexpr DicomTag as_text[] = {tags::media_class,
                                 tags::frame_offsets,
                                 tags::dose_scale};
 constexpr DicomTag as_time[] = {tags::acquisition_time, tags::frame_acquisition};
-constexpr DicomTag as_us[] = {tags::mosaic_images,
-                              tags::frame_acquisition_number,
-                              tags::samples_per_pixel,
-                              tags::frame_pointer,
-                              tags::rows,
-                              tags::columns,
-                              tags::bits_allocated,
-                              tags::bits_stored,
-                              tags::high_bit,
-                              tags::pixel_sign,
-                              tags::padding,
-                              tags::padding_limit,
-                              tags::lut_descriptor,
-                              tags::lut_data,
-                              tags::time_slots,
-                              tags::energy_windows,
-                              tags::slice_vector};
+constexpr DicomTag as_us[] = {tags::mosaic_images,  tags::frame_acquisition_number,
+                              tags::region_units,   tags::samples_per_pixel,
+                              tags::frame_pointer,  tags::rows,
+                              tags::columns,        tags::bits_allocated,
+                              tags::bits_stored,    tags::high_bit,
+                              tags::pixel_sign,     tags::padding,
+                              tags::padding_limit,  tags::lut_descriptor,
+                              tags::lut_data,       tags::time_slots,
+                              tags::energy_windows, tags::slice_vector};
 constexpr DicomTag as_ul[] = {tags::temporal_index, tags::dimension_values};
-constexpr DicomTag as_fd[] = {tags::effective_echo_time,  tags::diffusion_b,
-                              tags::mosaic_normal,        tags::trigger_delay,
-                              tags::real_world_intercept, tags::real_world_slope};
+constexpr DicomTag as_fd[] = {
+    tags::effective_echo_time,  tags::diffusion_b,      tags::mosaic_normal, tags::trigger_delay,
+    tags::real_world_intercept, tags::real_world_slope, tags::region_width,  tags::region_height};
 
 // The kept elements that may be longer than others.
 constexpr DicomTag long_elements[] = {tags::csa_header,   tags::lut_data,   tags::frame_offsets,
@@ -80,8 +74,8 @@ constexpr DicomTag long_elements[] = {tags::csa_header,   tags::lut_data,   tags
 
 // Sequences whose items are kept, and those inside them that hold what is used. In data sets with
 // implicit VRs only their tags tell that they are sequences.
-constexpr DicomTag kept_sequences[] = {tags::shared_groups, tags::frame_groups, tags::detectors,
-                                       tags::modality_lut, tags::real_world_map};
+constexpr DicomTag kept_sequences[] = {tags::shared_groups, tags::frame_groups,   tags::detectors,
+                                       tags::modality_lut,  tags::real_world_map, tags::regions};
 constexpr DicomTag inner_sequences[] = {0x00189114,  // MR echo
                                         0x00189117,  // MR diffusion
                                         0x00189118,  // cardiac synchronization

@@ -38,6 +38,8 @@ constexpr PhaseAttribute phase_attributes[] = {
     {dicom_tag::acquisition_time, "AcquisitionTime", false},
     {dicom_tag::frame_acquisition, "FrameAcquisitionDateTime", false},
     {dicom_tag::diffusion_b, "DiffusionBValue"},
+    {dicom_tag::inversion_time, "InversionTime"},
+    {dicom_tag::flip_angle, "FlipAngle"},
     {dicom_tag::time_slots, "TimeSlotVector"},
     {dicom_tag::energy_windows, "EnergyWindowVector"},
     {dicom_tag::frame_pointer, "the number of the frame"},
@@ -154,10 +156,9 @@ void remove_twins(Places& places, const std::string& file) {
         place = std::move(kept);
     }
     if (removed > 0) {
-        warn(fmt::format(
-            "{}: found {} slices too many, with the place and pixels of others: they are "
+        say("{}: found {} slices too many, with the place and pixels of others: they are "
             "not used",
-            file, removed));
+            file, removed);
     }
 }
 
@@ -218,8 +219,8 @@ std::vector<DicomSlice> slices_of_time(Places places, const std::string& file,
                 "EchoTime or AcquisitionTime",
                 file, places[0].size(), places[0][0].name());
         }
-        warn(fmt::format("{}: the {} images at each place are times: {} tells them apart", file,
-                         places[0].size(), key->name()));
+        say("{}: the {} images at each place are times: {} tells them apart", file,
+            places[0].size(), key->name());
         for (auto& place : places) {
             std::ranges::sort(place, {},
                               [&](const DicomSlice& slice) { return *value_of(slice, *key); });

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "volume_files/dicom_phases.h"
+#include "volume_files/numbered_files.h"
 
 namespace lamina {
 namespace {
@@ -52,6 +52,27 @@ void set_orientation(const DicomElements& elements, DicomImage& image, DicomFram
     frame.along_column = glm::normalize(column);
 }
 
+// Returns the distances of rows and of columns in mm that the regions of an ultrasound image have
+// in common; zeros if they have none, or other units than cm: PS3.3, C.8.5.5.
+std::pair<double, double> ultrasound_spacing(const DicomElements& elements) {
+    constexpr double centimetres = 3;  // PhysicalUnitsXDirection
+    const auto regions = elements.items.find(dicom_tag::regions);
+    const std::size_t count = regions == elements.items.end() ? 0 : regions->second.size();
+    std::pair<double, double> found{0, 0};
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto number = [&](DicomTag tag) {
+            const auto numbers = elements.numbers_in(dicom_tag::regions, i, tag);
+            return numbers.size() == 1 ? std::abs(numbers[0]) : 0;
+        };
+        if (number(dicom_tag::region_units) != centimetres) return {};
+        const std::pair own{10 * number(dicom_tag::region_height),
+                            10 * number(dicom_tag::region_width)};
+        if (i > 0 && own != found) return {};
+        found = own;
+    }
+    return found;
+}
+
 void set_spacing(const DicomElements& elements, DicomImage& image, DicomFrame& frame) {
     constexpr std::pair<DicomTag, const char*> attributes[] = {
         {dicom_tag::pixel_spacing, "PixelSpacing"},
@@ -69,6 +90,14 @@ void set_spacing(const DicomElements& elements, DicomImage& image, DicomFrame& f
             note(image, frame, fmt::format("PixelSpacing ({} is taken)", name));
         frame.row_spacing = spacing[0];
         frame.column_spacing = spacing[1];
+        return;
+    }
+    if (const auto [height, width] = ultrasound_spacing(elements); width > 0 && height > 0) {
+        note(image, frame,
+             "PixelSpacing (PhysicalDeltaX and PhysicalDeltaY of its ultrasound regions are "
+             "taken)");
+        frame.row_spacing = height;
+        frame.column_spacing = width;
         return;
     }
     image.has_spacing = false;
@@ -306,15 +335,20 @@ void place_by_numbers(std::vector<DicomImage>& images, const std::string& name) 
         sorted[i]->place_words = by_location ? "SliceLocation" : "InstanceNumber";
     }
     if (by_location) {
-        warn(fmt::format("{}: found no ImagePositionPatient: slices lie at their SliceLocation",
-                         name));
+        say("{}: found no ImagePositionPatient: slices lie at their SliceLocation", name);
         return;
     }
     const std::string words = images[0].spacing_words;
-    warn(
-        fmt::format("{}: found no ImagePositionPatient: slices are taken in the order of "
-                    "InstanceNumber, {} mm apart ({}); \"spacing\" in the volume sets another",
-                    name, spacing, words.empty() ? "no file says it" : words));
+    say("{}: found no ImagePositionPatient: slices are taken in the order of "
+        "InstanceNumber, {} mm apart ({}); \"spacing\" in the volume sets another",
+        name, spacing, words.empty() ? "no file says it" : words);
+    std::vector<std::int64_t> numbers;
+    for (const DicomImage* image : sorted) numbers.push_back(std::llround(*image->number));
+    if (const std::string gaps = gaps_of(numbers); !gaps.empty()) {
+        say("{}: InstanceNumber: {} are missing: the slices beside a gap are "
+            "neighbours here",
+            name, gaps);
+    }
 }
 
 SliceLine fitted_line(const std::vector<SlicePlace>& slices, const std::string& file,
@@ -332,10 +366,9 @@ SliceLine fitted_line(const std::vector<SlicePlace>& slices, const std::string& 
              slice->name);
     }
     const auto [least, most] = std::ranges::minmax(distances);
-    warn(fmt::format(
-        "{}: {}: slices are {:.6g} to {:.6g} mm apart: they are placed {:.6g} mm apart on the "
+    say("{}: {}: slices are {:.6g} to {:.6g} mm apart: they are placed {:.6g} mm apart on the "
         "straight line nearest to them, which moves them by up to {:.2g} mm",
-        file, words, least, most, distance, shift));
+        file, words, least, most, distance, shift);
     return line;
 }
 

@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cmath>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/json_text.h"
@@ -123,8 +122,8 @@ class AxisReader {
         if (!is_any_known) return;
         described.steps = steps;
         if (!unknown.empty()) {
-            warn(fmt::format("{}: axistags: the resolution {} is unknown: 1 is taken",
-                             array_.name(), fmt::join(unknown, ", ")));
+            say("{}: axistags: the resolution {} is unknown: 1 is taken", array_.name(),
+                fmt::join(unknown, ", "));
         }
     }
 
@@ -173,9 +172,8 @@ class AxisReader {
         if (text_of(array_.id(), "CLASS") != "IMAGE") return;
         const std::string kind = text_of(array_.id(), "IMAGE_SUBCLASS");
         if (kind == "IMAGE_INDEXED" || H5Aexists(array_.id(), "PALETTE") > 0)
-            warn(fmt::format(
-                "{}: its colours (PALETTE) are not used: the values are indices of them",
-                array_.name()));
+            say("{}: its colours (PALETTE) are not used: the values are indices of them",
+                array_.name());
         if (kind != "IMAGE_TRUECOLOR" || described.axes.size() != 3) return;
         const std::string order = text_of(array_.id(), "INTERLACE_MODE");
         for (ArrayAxis& axis : described.axes) axis.name.clear();
@@ -184,6 +182,42 @@ class AxisReader {
                                                        : "yxc",
                            3));
         contents.is_colour = true;
+    }
+
+    // Reads distances and places along x, y and z that programs keep beside an array [z, y, x]:
+    // Chimera in attributes of its group, DREAM.3D, whose origin is a corner, in data sets.
+    void read_geometry() {
+        std::vector<double> steps, firsts;
+        const std::string geometry =
+            fmt::format("{}/_SIMPL_GEOMETRY", parents_.size() > 1 ? parents_[1] : "");
+        if (parents_[0].starts_with("/Chimera/")) {
+            const Hdf5Handle group = files_.group(parents_[0]);
+            steps = numbers_of(group.id(), "step");
+            firsts = numbers_of(group.id(), "origin");
+        } else if (files_.has(geometry)) {
+            const auto list = [&](const char* name) {
+                const Hdf5Handle set = files_.open_beside(fmt::format("{}/{}", geometry, name));
+                return set.valid() ? numbers_in(set.id(), 3) : std::vector<double>();
+            };
+            steps = list("SPACING");
+            firsts = list("ORIGIN");
+            for (std::size_t i = 0; i < std::min(steps.size(), firsts.size()); ++i)
+                firsts[i] += steps[i] / 2;
+        }
+        if (steps.size() != 3 || firsts.size() != 3) return;
+        name_axes(words_in(described.axes.size() == 3 ? "zyx" : "zyxc", described.axes.size()));
+        described.steps.assign(steps.rbegin(), steps.rend());
+        described.firsts.assign(firsts.rbegin(), firsts.rend());
+    }
+
+    // Says how the axes of a matrix lie, which MATLAB and Octave write with the first one fastest.
+    void say_if_transposed() const {
+        const bool is_matlab = H5Aexists(array_.id(), "MATLAB_class") > 0;
+        const Hdf5Handle group = files_.group(parents_[0]);
+        if (!is_matlab && H5Aexists(group.id(), "OCTAVE_NEW_FORMAT") <= 0) return;
+        say("{}: {} has written it: its first axis (rows) is taken for x, its second "
+            "(columns) for y",
+            array_.name(), is_matlab ? "MATLAB" : "Octave");
     }
 
     // Reads distances and places from attributes of the array or, if it has none, of its groups.
@@ -205,8 +239,8 @@ class AxisReader {
         }
         const std::vector<double> value = numbers_of(array_.id(), "unitSI");
         if (value.size() == 1 && value[0] != 1) {
-            warn(fmt::format("{}: unitSI {}: values are as they are stored, not in SI units",
-                             array_.name(), value[0]));
+            say("{}: unitSI {}: values are as they are stored, not in SI units", array_.name(),
+                value[0]);
         }
     }
 
@@ -250,16 +284,13 @@ DescribedArray describe_hdf5(Hdf5Files& files, const Hdf5Array& array, const Hdf
         reader.name_axes(words_in(layout.labels, array.shape().size()));
         return reader.described;
     }
-    if (H5Aexists(array.id(), "MATLAB_class") > 0)
-        warn(
-            fmt::format("{}: MATLAB has written it: its first axis (rows) is taken for x, its "
-                        "second (columns) for y",
-                        array.name()));
+    reader.say_if_transposed();
     reader.read_axistags();
     reader.read_image(contents);
     reader.read_labels_and_scales();
     reader.read_names();
     reader.read_coordinates_beside();
+    reader.read_geometry();
     reader.read_lengths();
     reader.read_openpmd();
     return reader.described;

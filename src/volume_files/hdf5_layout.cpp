@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "volume_files/stored_data.h"
 
@@ -191,10 +190,9 @@ Hdf5Layout big_data_viewer(Hdf5Files& files, const VolumeRequest& request,
         layout.grid->step[static_cast<std::size_t>(i)] *= factor;
         layout.grid->origin[i] = (factor - 1) / 2;  // the middle of the voxels that one stands for
     }
-    warn(
-        fmt::format("{}: BigDataViewer keeps the sizes of voxels in its .xml, which is not read: "
-                    "they are taken as 1, \"spacing\" in the volume gives others",
-                    files.name()));
+    say("{}: BigDataViewer keeps the sizes of voxels in its .xml, which is not read: "
+        "they are taken as 1, \"spacing\" in the volume gives others",
+        files.name());
     return layout;
 }
 
@@ -267,8 +265,8 @@ class VtkHdfReader {
         }
         if (files_.has(scalars) && !scalars.empty()) return scalars;
         if (contents.arrays.size() > 1) {
-            warn(fmt::format("{}: array {} of {} is taken: \"array\" in the volume names another",
-                             files_.name(), one_line(contents.arrays[0]), contents.arrays.size()));
+            say("{}: array {} of {} is taken: \"array\" in the volume names another", files_.name(),
+                one_line(contents.arrays[0]), contents.arrays.size());
         }
         return contents.arrays[0];
     }
@@ -372,10 +370,9 @@ std::string signal_of(const Hdf5Files& files, const std::vector<std::string>& ar
             signals.push_back(array);
     }
     if (signals.size() != 1) return {};
-    warn(
-        fmt::format("{}: array {} of {} is taken, the signal of its group (NeXus): \"array\" in "
-                    "the volume names another",
-                    files.name(), one_line(signals[0]), arrays.size()));
+    say("{}: array {} of {} is taken, the signal of its group (NeXus): \"array\" in "
+        "the volume names another",
+        files.name(), one_line(signals[0]), arrays.size());
     return signals[0];
 }
 

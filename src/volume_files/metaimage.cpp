@@ -7,7 +7,6 @@
 #include <map>
 #include <sstream>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "volume_files/numbered_files.h"
@@ -143,10 +142,9 @@ class MetaImage {
     void say_what_is_not_used() const {
         const std::vector<double> zeros(dimensions_, 0);
         if (numbers_of({"CenterOfRotation"}, zeros) == zeros) return;
-        warn(
-            fmt::format("{}: CenterOfRotation: found {}, which is not used: as in ITK, Offset is "
-                        "the place of the first sample",
-                        fields_.file(), one_line(fields_.text("CenterOfRotation").substr(0, 80))));
+        say("{}: CenterOfRotation: found {}, which is not used: as in ITK, Offset is "
+            "the place of the first sample",
+            fields_.file(), one_line(fields_.text("CenterOfRotation").substr(0, 80)));
     }
 
     // ITK and VTK write colours so, and vectors as other types.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 
@@ -176,8 +175,8 @@ double voxel_length(const NiftiHeader& header, std::size_t i) {
     const double found = header.pixdim[i];
     const double length = found == 0 ? 1 : std::abs(found);
     if (!(found > 0) && length > 0) {
-        warn(fmt::format("{}: pixdim[{}]: found {}, expected a number above 0: {} is taken",
-                         header.path.string(), i, found, length));
+        say("{}: pixdim[{}]: found {}, expected a number above 0: {} is taken",
+            header.path.string(), i, found, length);
     }
     return length;
 }
@@ -238,7 +237,7 @@ bool is_placed_by_sform(const NiftiHeader& header, Grid& grid) {
         return true;
     } catch (const Error& error) {
         if (header.qform_code <= 0) throw;
-        warn(fmt::format("{}: the qform is taken", error.what()));
+        say("{}: the qform is taken", error.what());
         return false;
     }
 }
@@ -405,8 +404,8 @@ void set_nifti_scale(const NiftiHeader& header, StoredData& data) {
         data.scale = header.slope;
         data.shift = header.intercept;
     } else if (header.intercept != 0 && !std::isnan(header.intercept)) {
-        warn(fmt::format("{}: scl_inter: found {}, which scl_slope 0 says not to use",
-                         header.path.string(), header.intercept));
+        say("{}: scl_inter: found {}, which scl_slope 0 says not to use", header.path.string(),
+            header.intercept);
     }
 }
 

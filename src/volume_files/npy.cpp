@@ -7,7 +7,6 @@
 #include <cstring>
 #include <sstream>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/memory.h"
@@ -52,8 +51,7 @@ std::vector<StoredAxis> npy_axes(const std::string& name, std::vector<std::int64
     if (shape.size() == 5) {
         axes[0] = taken_axis(name, "time", request.time, shape[0]);
         axes[1] = taken_axis(name, "channel", request.channel, shape[1]);
-        warn(fmt::format("{}: five axes without names are taken for time, channel, z, y and x",
-                         name));
+        say("{}: five axes without names are taken for time, channel, z, y and x", name);
     } else if (ends_with_channels(name, shape, request)) {
         axes[3] = taken_axis(name, "channel", request.channel, shape[3]);
     } else if (shape.size() == 4) {
@@ -189,10 +187,9 @@ class Npz {
         if (found.empty())
             fail("{}: found no array of three axes or more, expected one", path_.string());
         if (all.size() > 1)
-            warn(
-                fmt::format("{}: array \"{}\" of \"{}\" is taken: \"array\" in the volume names "
-                            "another",
-                            path_.string(), found[0], fmt::join(all, "\", \"")));
+            say("{}: array \"{}\" of \"{}\" is taken: \"array\" in the volume names "
+                "another",
+                path_.string(), found[0], fmt::join(all, "\", \""));
         return found[0];
     }
 

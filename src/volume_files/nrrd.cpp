@@ -14,7 +14,6 @@
 #include <sstream>
 #include <system_error>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "image/coded_image.h"
@@ -71,7 +70,7 @@ std::vector<unsigned> volume_axes(const std::string& file, const Nrrd& nrrd) {
     if (axes.size() != 3) {
         fail(
             "{}: dimension: found {} axes (sizes {}), {} of them in space by kinds, directions "
-            "and spacings, expected 3",
+            "and spacings, expected 3: \"kinds\" says which of more are others (time, list)",
             file, nrrd.dim, fmt::join(sizes, " "), axes.size());
     }
     for (const unsigned axis : axes) {
@@ -143,10 +142,9 @@ void set_steps_by_directions(const std::string& file, const Nrrd& nrrd,
         fail("{}: space: found {} dimensions, expected 3, or 4 with time", file, nrrd.spaceDim);
     }
     if (nrrd.space == nrrdSpace3DLeftHanded || nrrd.space == nrrdSpace3DLeftHandedTime)
-        warn(
-            fmt::format("{}: space: 3D-left-handed axes are drawn as right-handed ones, which "
-                        "shows a mirror image",
-                        file));
+        say("{}: space: 3D-left-handed axes are drawn as right-handed ones, which "
+            "shows a mirror image",
+            file);
     for (std::size_t i = 0; i < 3; ++i) {
         if (!has_direction(nrrd, axes[i])) {
             fail("{}: space directions: axis {} has none, expected three directions", file,
@@ -625,10 +623,9 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeReque
     if (nrrd->sampleUnits != nullptr) header.sample_unit = unit_word(nrrd->sampleUnits);
     take_label_keys(text.keys, request, header);
     if (!std::isnan(nrrd->oldMin) || !std::isnan(nrrd->oldMax)) {
-        warn(
-            fmt::format("{}: old min, old max: found {} and {}, the range before the samples were "
-                        "quantized: the samples are drawn as they are stored",
-                        name, nrrd->oldMin, nrrd->oldMax));
+        say("{}: old min, old max: found {} and {}, the range before the samples were "
+            "quantized: the samples are drawn as they are stored",
+            name, nrrd->oldMin, nrrd->oldMax);
     }
     data.line_skip = state->lineSkip;
     data.byte_skip = state->byteSkip;

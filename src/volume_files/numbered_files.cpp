@@ -10,9 +10,9 @@
 #include <sstream>
 #include <system_error>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "image/picture.h"
+#include "volume_files/stored_samples.h"
 
 namespace lamina {
 namespace {
@@ -63,22 +63,6 @@ struct NameParts {
     std::string text;
     std::vector<std::string> numbers;  // without zeros in front
 };
-
-// Returns "3, 7 to 9": the numbers between those of an increasing series that are no steps of it.
-std::string gaps_of(const std::vector<std::int64_t>& numbers) {
-    std::int64_t step = std::numeric_limits<std::int64_t>::max();
-    for (std::size_t i = 1; i < numbers.size(); ++i)
-        step = std::min(step, numbers[i] - numbers[i - 1]);
-    std::string gaps;
-    if (step < 1) return gaps;  // numbers that are too large for whole_number()
-    for (std::size_t i = 1; i < numbers.size() && gaps.size() < 100; ++i) {
-        const std::int64_t first = numbers[i - 1] + step, last = numbers[i] - step;
-        if (first > last) continue;
-        gaps += fmt::format("{}{}", gaps.empty() ? "" : ", ", first);
-        if (last > first) gaps += fmt::format(" to {}", last);
-    }
-    return gaps;
-}
 
 }  // namespace
 
@@ -140,12 +124,26 @@ std::vector<std::filesystem::path> files_in_folder(const std::filesystem::path& 
     return files;
 }
 
+std::string gaps_of(const std::vector<std::int64_t>& numbers) {
+    std::int64_t step = std::numeric_limits<std::int64_t>::max();
+    for (std::size_t i = 1; i < numbers.size(); ++i)
+        step = std::min(step, numbers[i] - numbers[i - 1]);
+    std::string gaps;
+    if (step < 1) return gaps;  // numbers that are too large for whole_number()
+    for (std::size_t i = 1; i < numbers.size() && gaps.size() < 100; ++i) {
+        const std::int64_t first = numbers[i - 1] + step, last = numbers[i] - step;
+        if (first > last) continue;
+        gaps += fmt::format("{}{}", gaps.empty() ? "" : ", ", first);
+        if (last > first) gaps += fmt::format(" to {}", last);
+    }
+    return gaps;
+}
+
 void warn_of_series(const std::string& name, const char* kind,
                     const std::vector<std::filesystem::path>& files) {
     const std::size_t all = files_in_folder(name).size();  // 0 for a file
     if (all > files.size()) {
-        warn(fmt::format("{}: {} of {} files are no {}, and not used", name, all - files.size(),
-                         all, kind));
+        say("{}: {} of {} files are no {}, and not used", name, all - files.size(), all, kind);
     }
     if (files.size() < 2) return;
     std::map<std::string, std::vector<NameParts>> series;
@@ -154,10 +152,9 @@ void warn_of_series(const std::string& name, const char* kind,
         series[parts.text].push_back(parts);
     }
     if (series.size() == files.size()) {
-        warn(
-            fmt::format("{}: the names of its {} files do not differ in a number alone: they are "
-                        "taken in alphabetical order",
-                        name, files.size()));
+        say("{}: the names of its {} files do not differ in a number alone: they are "
+            "taken in alphabetical order",
+            name, files.size());
         return;
     }
     if (series.size() > 1) {
@@ -189,10 +186,9 @@ void warn_of_series(const std::string& name, const char* kind,
         numbers.push_back(whole_number("0" + each.numbers[changing[0]]).value_or(0));
     const std::string gaps = gaps_of(numbers);
     if (!gaps.empty()) {
-        warn(fmt::format(
-            "{}: in the series '{}' the numbers {} are missing: the slices beside a gap "
+        say("{}: in the series '{}' the numbers {} are missing: the slices beside a gap "
             "are neighbours here",
-            name, text, gaps));
+            name, text, gaps);
     }
 }
 

@@ -44,6 +44,9 @@ std::optional<std::vector<std::string>> names_of(const FilePattern& pattern, std
 // names: a2 before a10. Returns none if the folder cannot be read.
 std::vector<std::filesystem::path> files_in_folder(const std::filesystem::path& folder);
 
+// Returns "3, 7 to 9": the numbers between those of an increasing series that are no steps of it.
+std::string gaps_of(const std::vector<std::int64_t>& numbers);
+
 // Checks that files, in the order of files_in_folder(), are one series whose names differ in one
 // number. Warns of numbers that are missing between the first and the last, and of names without
 // numbers, and of files in the folder that are no `kind` ("TIFF"). Throws Error if there are

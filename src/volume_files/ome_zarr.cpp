@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "base/client.h"
 #include "image/coded_image.h"
 #include "volume_files/zarr_image.h"
 
@@ -24,7 +23,7 @@ class OmeZarrReader {
 
     ZarrImage read(const std::optional<std::int64_t>& wanted) {
         if (const std::size_t count = ome_["multiscales"].size(); count > 1)
-            warn(fmt::format("{}: multiscales: image 0 of {} is taken", name_, count));
+            say("{}: multiscales: image 0 of {} is taken", name_, count);
         const Json& datasets = list_in(image_, "datasets");
         const std::int64_t level =
             taken_of(name_, "level", wanted, static_cast<std::int64_t>(datasets.size()));
@@ -138,8 +137,8 @@ class OmeZarrReader {
             if (role >= 'x') (read.unit.empty() ? without_unit : with_unit) = role;
         }
         if (!with_unit.empty() && !without_unit.empty()) {
-            warn(fmt::format("{}: axes: {} has no unit: it is taken to be that of {}", name_,
-                             without_unit, with_unit));
+            say("{}: axes: {} has no unit: it is taken to be that of {}", name_, without_unit,
+                with_unit);
         }
         return axes;
     }

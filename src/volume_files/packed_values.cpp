@@ -10,7 +10,6 @@
 #include <limits>
 #include <type_traits>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "volume_files/stored_samples.h"
 
@@ -114,8 +113,8 @@ void PackedValues::read_limits(const std::optional<ValueType>& packing,
     const auto limits = [&](const char* key, std::size_t count) {
         PackedAttribute found = attribute(key);
         if (is_there(found) && found.numbers.size() != count) {
-            warn(fmt::format("{}: {}: found {}, expected {} numbers: it is not used", name_, key,
-                             found_text(found), count));
+            say("{}: {}: found {}, expected {} numbers: it is not used", name_, key,
+                found_text(found), count);
             found.numbers.clear();
         }
         return found;
@@ -193,8 +192,7 @@ std::int64_t PackedValues::mark(std::int64_t count, const void* from, void* to) 
 
 void PackedValues::say_missing(std::int64_t count) const {
     if (count > 0) {
-        warn(fmt::format("{}: {} samples are NaN: the file calls them missing ({})", name_, count,
-                         keys_));
+        say("{}: {} samples are NaN: the file calls them missing ({})", name_, count, keys_);
     }
 }
 

@@ -278,26 +278,22 @@ PictureKind kind_of_pictures(const std::vector<Path>& files, PictureNotes& notes
 
 void warn_of_codes(const std::string& name, const PictureKind& kind) {
     if (kind.channels > 2)
-        warn(fmt::format("{}: its pixels are colours{}, which are read as channels", name,
-                         kind.has_palette ? " of a palette" : ""));
+        say("{}: its pixels are colours{}, which are read as channels", name,
+            kind.has_palette ? " of a palette" : "");
     if (kind.stored_bits < 8 && !kind.has_palette)
-        warn(fmt::format("{}: its {} bits of grey are stretched to 0 to 255", name,
-                         kind.stored_bits));
+        say("{}: its {} bits of grey are stretched to 0 to 255", name, kind.stored_bits);
 }
 
 void warn_of_notes(const std::string& name, const PictureNotes& notes) {
     if (notes.height_of_pixels != 1)
-        warn(
-            fmt::format("{}: it says that pixels are {:.4g} times as high as wide, which is not "
-                        "used: \"spacing\" in the volume sets distances",
-                        name, notes.height_of_pixels));
-    if (notes.has_transparent)
-        warn(fmt::format("{}: its transparent colours (PNG's tRNS) are not used", name));
+        say("{}: it says that pixels are {:.4g} times as high as wide, which is not "
+            "used: \"spacing\" in the volume sets distances",
+            name, notes.height_of_pixels);
+    if (notes.has_transparent) say("{}: its transparent colours (PNG's tRNS) are not used", name);
     if (notes.orientation != 1)
-        warn(
-            fmt::format("{}: its Orientation {} says that the first pixel is not at the top left: "
-                        "pixels are in the order in which they are stored",
-                        name, notes.orientation));
+        say("{}: its Orientation {} says that the first pixel is not at the top left: "
+            "pixels are in the order in which they are stored",
+            name, notes.orientation);
 }
 
 }  // namespace

@@ -116,10 +116,9 @@ void read_numbers(std::FILE* stream, const std::string& file, ValueType type, st
     std::int64_t surplus = 0;
     while (!reader.next().empty()) ++surplus;
     if (surplus > 0) {
-        warn(
-            fmt::format("{}: found {} numbers or other words more than the {} of the header: they "
-                        "are not used",
-                        file, surplus, count));
+        say("{}: found {} numbers or other words more than the {} of the header: they "
+            "are not used",
+            file, surplus, count);
     }
 }
 
@@ -316,15 +315,14 @@ void say_taken(const std::string& file, Axes axes) {
         if (!axis.taken || axis.given || axis.size == 1) continue;
         if (axis.unnamed) {
             const bool channels = std::string_view(axis.what) == "channel";
-            warn(
-                fmt::format("{}: the axis of {} has no name and is taken for {}s, of which 0 is "
-                            "shown: \"{}\" in the volume names another, \"{}\" takes the axis "
-                            "for {}s",
-                            file, axis.size, axis.what, axis.what, channels ? "time" : "channel",
-                            channels ? "time" : "channel"));
+            say("{}: the axis of {} has no name and is taken for {}s, of which 0 is "
+                "shown: \"{}\" in the volume names another, \"{}\" takes the axis "
+                "for {}s",
+                file, axis.size, axis.what, axis.what, channels ? "time" : "channel",
+                channels ? "time" : "channel");
         } else {
-            warn(fmt::format("{}: {} 0 of {} is taken: \"{}\" in the volume names another", file,
-                             axis.what, axis.size, axis.what));
+            say("{}: {} 0 of {} is taken: \"{}\" in the volume names another", file, axis.what,
+                axis.size, axis.what);
         }
     }
 }
@@ -501,8 +499,8 @@ std::shared_ptr<void> StoredReader::taken(std::shared_ptr<void> all) const {
 void StoredReader::warn_of_surplus(ByteReader& reader) const {
     const Path& path = data_.files.size() == 1 ? data_.files[0] : data_.path;
     for (const std::string& surplus : reader.surplus()) {
-        warn(fmt::format("{}: found {} than the {} of {}: they are not used", path.string(),
-                         surplus, named_size(data_), data_.teller));
+        say("{}: found {} than the {} of {}: they are not used", path.string(), surplus,
+            named_size(data_), data_.teller);
     }
 }
 

@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/client.h"
 #include "base/enum_words.h"
 #include "base/memory.h"
 #include "base/parallel.h"
@@ -129,12 +128,12 @@ void warn_of(const Rounded& rounded, const StoredSamples& samples, std::int64_t 
         const char* const hint = is_integer(samples.type)
                                      ? ": \"lookup\": \"nearest\" in the volume keeps labels apart"
                                      : "";
-        warn(fmt::format("{}: {} of {} {} samples are rounded to float, by up to {:.3g}{}",
-                         samples.file, rounded.inexact, count, type, rounded.largest_error, hint));
+        say("{}: {} of {} {} samples are rounded to float, by up to {:.3g}{}", samples.file,
+            rounded.inexact, count, type, rounded.largest_error, hint);
     }
     if (rounded.infinite > 0) {
-        warn(fmt::format("{}: {} of {} {} samples are beyond float, and infinite", samples.file,
-                         rounded.infinite, count, type));
+        say("{}: {} of {} {} samples are beyond float, and infinite", samples.file,
+            rounded.infinite, count, type);
     }
 }
 
@@ -207,12 +206,11 @@ std::optional<Volume> labelled(Grid grid, const StoredSamples& samples) {
     if (type != SampleType::float32)
         return Volume(grid, type, filled(type, count, [&](auto i) { return from[i]; }));
     const auto labels = table_of_labels(*values);
-    warn(
-        fmt::format("{}: its {} labels, from {} to {}, are numbered 0 to {} in increasing order: "
-                    "lamina info lists them, and a given transfer function means those of the "
-                    "file",
-                    samples.file, values->size(), labels->list.front().number,
-                    labels->list.back().number, values->size() - 1));
+    say("{}: its {} labels, from {} to {}, are numbered 0 to {} in increasing order: "
+        "lamina info lists them, and a given transfer function means those of the "
+        "file",
+        samples.file, values->size(), labels->list.front().number, labels->list.back().number,
+        values->size() - 1);
     const SampleType codes = values->size() <= 256 ? SampleType::uint8 : SampleType::uint16;
     const auto code = [&](auto i) {
         return std::ranges::lower_bound(*values, from[i]) - values->begin();
@@ -224,13 +222,12 @@ std::optional<Volume> labelled(Grid grid, const StoredSamples& samples) {
 void warn_of_no_labels(const Grid& grid, const StoredSamples& samples,
                        const std::optional<VolumeLookup>& lookup) {
     if (lookup || grid.lookup != VolumeLookup::nearest) return;
-    warn(fmt::format(
-        "{}: its samples are labels, but{} no whole numbers, so that no label has a "
+    say("{}: its samples are labels, but{} no whole numbers, so that no label has a "
         "colour of its own",
         samples.file,
         samples.is_plain()
             ? ""
-            : fmt::format(", scaled by {} and shifted by {},", samples.scale, samples.offset)));
+            : fmt::format(", scaled by {} and shifted by {},", samples.scale, samples.offset));
 }
 
 template <typename From>
@@ -250,8 +247,8 @@ Volume narrowed(const Grid& grid, const StoredSamples& samples,
         if (auto volume = labelled<From>(grid, samples)) return *volume;
         voxels.lookup = VolumeLookup::nearest;
         if (std::is_integral_v<From>)
-            warn(fmt::format("{}: more than {} labels, which are drawn as numbers of type float",
-                             samples.file, most_label_codes));
+            say("{}: more than {} labels, which are drawn as numbers of type float", samples.file,
+                most_label_codes);
         else
             warn_of_no_labels(grid, samples, lookup);
     }
@@ -304,10 +301,9 @@ std::optional<Volume> scaled_labels(const Grid& grid, const StoredSamples& sampl
     });
     if (!whole) return {};
     if (farthest > 0) {
-        warn(
-            fmt::format("{}: its labels, scaled by {} and shifted by {}, are the nearest whole "
-                        "numbers, up to {:.2g} away",
-                        samples.file, samples.scale, samples.offset, farthest));
+        say("{}: its labels, scaled by {} and shifted by {}, are the nearest whole "
+            "numbers, up to {:.2g} away",
+            samples.file, samples.scale, samples.offset, farthest);
     }
     return labelled<double>(grid, numbers);
 }
@@ -395,10 +391,9 @@ bool taken_by_signs(const std::string& file, const LabelSigns& signs) {
     const std::string equal =
         fmt::format("{:.3g} % of them equal their six neighbours", 100 * signs.equal);
     if (signs.are_labels()) {
-        warn(
-            fmt::format("{}: its samples are taken for labels, as {}; \"lookup\": \"linear\" in "
-                        "the volume would interpolate between them",
-                        file, equal));
+        say("{}: its samples are taken for labels, as {}; \"lookup\": \"linear\" in "
+            "the volume would interpolate between them",
+            file, equal);
         return true;
     }
     const std::string but =
@@ -408,10 +403,9 @@ bool taken_by_signs(const std::string& file, const LabelSigns& signs) {
                   "as {}, but {:.3g} % of unequal neighbours differ by 1, as in a smooth "
                   "field that was rounded",
                   equal, 100 * signs.by_one);
-    warn(
-        fmt::format("{}: its samples look like labels, {}: they are taken for a field, and "
-                    "\"lookup\": \"nearest\" in the volume takes them for labels",
-                    file, but));
+    say("{}: its samples look like labels, {}: they are taken for a field, and "
+        "\"lookup\": \"nearest\" in the volume takes them for labels",
+        file, but);
     return false;
 }
 

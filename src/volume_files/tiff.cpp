@@ -199,11 +199,16 @@ class TiffStack {
     // Takes the files of a folder for slices or, if each has slices, for an axis without a name.
     void add_files(std::int64_t pages_each) {
         const auto z = std::ranges::find(found_.axes, 'Z', &TiffAxis::letter);
-        if (found_.writer.empty()) {
+        const bool as_many = std::ssize(found_.pages) == pages_each * std::ssize(files_);
+        if (found_.writer.empty() && (z->size == 1 || !as_many)) {
+            if (!as_many)
+                say("{}: its files have different numbers of pages: all are taken for slices, one "
+                    "file behind the other",
+                    name_);
             z->size = page_.depth * std::ssize(found_.pages);
             return;
         }
-        if (std::ssize(found_.pages) != pages_each * std::ssize(files_))
+        if (!as_many)
             fail("{}: found {} pages in {} files, expected {} in each, as in the first", name_,
                  found_.pages.size(), files_.size(), pages_each);
         const bool has_slices = z != found_.axes.end() && z->size > 1;

@@ -220,7 +220,7 @@ void warn_of_unknown(const TiffBeginning& first) {
         return static_cast<char>(std::tolower(letter));
     });
     for (const char* const word : {"spacing", "pixelsize", "pixel size", "voxel", "calibration",
-                                   "channel", "slices", "frames", "<?xml"}) {
+                                   "channel", "slice", "frame", "<?xml"}) {
         if (text.find(word) == std::string::npos) continue;
         say("{}: its description is in no form that lamina reads ('{}'): distances and "
             "the meaning of pages are not taken from it",

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "base/client.h"
+#include "volume_files/stored_samples.h"
 
 namespace lamina {
 
@@ -88,10 +85,5 @@ bool is_distance(double number);
 
 [[noreturn]] void fail_as_mixed(const std::string& file, std::int64_t channels,
                                 std::int64_t samples);
-
-template <typename... Args>
-void say(fmt::format_string<Args...> format, Args&&... args) {
-    warn(fmt::format(format, std::forward<Args>(args)...));
-}
 
 }  // namespace lamina

@@ -113,12 +113,31 @@ TiffFile::TiffFile(const std::filesystem::path& path)
 // Moves to the next page; returns false at the end. A file opens at its first page.
 bool TiffFile::next_page() {
     message_.clear();
+    const std::uint64_t place = TIFFCurrentDirOffset(tiff_.get());
     if (TIFFReadDirectory(tiff_.get()) == 0) {
         if (!message_.empty()) fail("{}: page {}: {}", name_, number_ + 2, message_);
+        check_last_link(place);
         return false;
     }
     ++number_;
     return true;
+}
+
+void TiffFile::check_last_link(std::uint64_t place) const {
+    const RandomAccessFile file(name_);
+    char mark[4] = {}, bytes[8] = {};
+    file.read(0, mark, sizeof mark);
+    const bool is_big = mark[2] == '+' || mark[3] == '+';
+    const std::size_t count_bytes = is_big ? 8 : 2, entry_bytes = is_big ? 20 : 12;
+    file.read(place, bytes, count_bytes);
+    const bool swap = is_big_endian() == (std::endian::native == std::endian::little);
+    const std::uint64_t entries =
+        is_big ? values_from_bytes<std::uint64_t>(ValueType::uint64, bytes, 1, swap)[0]
+               : values_from_bytes<std::uint64_t>(ValueType::uint16, bytes, 1, swap)[0];
+    if (place + count_bytes + entries * entry_bytes + (is_big ? 8 : 4) > file_bytes_) {
+        fail("{}: page {}: the file ends before the place of the next page: it is truncated", name_,
+             number_ + 1);
+    }
 }
 
 void TiffFile::go_to_first() {

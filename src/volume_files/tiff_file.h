@@ -73,6 +73,9 @@ class TiffFile {
   private:
     bool is_packed() const;
     void check_compression() const;
+    // Throws Error if the file ends before the last page says whether another follows: libtiff
+    // takes that for the end of the pages. `place`: byte of the file at which its directory lies.
+    void check_last_link(std::uint64_t place) const;
     double resolution(ttag_t tag) const;  // pixels per unit of length; 0: unknown
     std::string description() const;
     void check_makers(bool described) const;

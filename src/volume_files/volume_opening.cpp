@@ -12,7 +12,6 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "base/memory.h"
 #include "mesh/predicates.h"
@@ -75,10 +74,9 @@ void make_orthogonal(const std::string& file, Grid& grid, const GridWords& words
     const glm::dmat3 orthogonal = nearest_orthogonal(directions);
     for (std::size_t i = 0; i < 3; ++i)
         grid.step[i] = orthogonal[static_cast<int>(i)] * glm::length(grid.step[i]);
-    warn(
-        fmt::format("{}: {}: axes are up to {:.2g} degrees from right angles: the nearest "
-                    "orthogonal ones are taken, which moves samples by up to {:.2g}",
-                    file, words.directions, worst, largest_shift(found, grid)));
+    say("{}: {}: axes are up to {:.2g} degrees from right angles: the nearest "
+        "orthogonal ones are taken, which moves samples by up to {:.2g}",
+        file, words.directions, worst, largest_shift(found, grid));
 }
 
 }  // namespace
@@ -163,10 +161,9 @@ void unite_units(const std::string& name, Grid& grid, const std::array<std::stri
         grid.origin[along] *= from / to;
     }
     if (differ) {
-        warn(
-            fmt::format("{}: the axes x, y and z have the units {}: their numbers are taken as "
-                        "they are, \"spacing\" in the volume gives others",
-                        name, fmt::join(words, ", ")));
+        say("{}: the axes x, y and z have the units {}: their numbers are taken as "
+            "they are, \"spacing\" in the volume gives others",
+            name, fmt::join(words, ", "));
     }
 }
 
@@ -184,10 +181,9 @@ void take_for_labels(const std::string& file, const std::string& who, const Volu
                      Grid& grid) {
     if (use.lookup) return;
     grid.lookup = VolumeLookup::nearest;
-    warn(
-        fmt::format("{}: its samples are labels, as {} says; \"lookup\": \"linear\" in the volume "
-                    "would interpolate between them",
-                    file, who));
+    say("{}: its samples are labels, as {} says; \"lookup\": \"linear\" in the volume "
+        "would interpolate between them",
+        file, who);
 }
 
 bool stays_in_files(const Grid& grid, SampleType type, const VolumeUse& use) {

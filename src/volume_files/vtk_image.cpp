@@ -92,10 +92,9 @@ double even_step(const std::string& file, char axis, const std::vector<double>& 
             file, axis, places[i], off, step);
     }
     if (worst > 1e-3 * std::abs(step)) {
-        warn(
-            fmt::format("{}: {} coordinates: steps are taken as {:.6g} each, which moves samples "
-                        "by up to {:.2g}",
-                        file, axis, step, worst));
+        say("{}: {} coordinates: steps are taken as {:.6g} each, which moves samples "
+            "by up to {:.2g}",
+            file, axis, step, worst);
     }
     return step;
 }
@@ -150,9 +149,8 @@ class VtkImage {
         if (found == offered.end()) found = offered.begin();
         array_ = **found;
         if (request_.array.empty() && offered.size() > 1) {
-            warn(fmt::format(
-                "{}: array \"{}\" of {} is taken: \"array\" in the volume names another",
-                head_.file, one_line(array_.name), offered.size()));
+            say("{}: array \"{}\" of {} is taken: \"array\" in the volume names another",
+                head_.file, one_line(array_.name), offered.size());
         }
         if (use_.contents == nullptr) return;
         for (const VtkImageArray* one : offered) use_.contents->arrays.push_back(one->name);
@@ -340,9 +338,8 @@ class VtkImage {
         for (std::size_t i = 0; i < cells.size(); ++i) cells[i] &= done[i] == 0;
         if (std::ranges::count(cells, 1) == 0) return points;
         join(points, marks_of_neighbours(cells, cell_size, point_size, true, false));
-        warn(
-            fmt::format("{}: hidden cells in layers one cell thick hide the cells beside them, too",
-                        head_.file));
+        say("{}: hidden cells in layers one cell thick hide the cells beside them, too",
+            head_.file);
         return points;
     }
 
@@ -357,10 +354,9 @@ class VtkImage {
                 to[i] = hidden[i] != 0 ? std::numeric_limits<float>::quiet_NaN()
                                        : static_cast<float>(from[i]);
         });
-        warn(
-            fmt::format("{}: {} of {} samples are hidden by ghost arrays and become NaN, which "
-                        "\"nan\": \"transparent\" in a scene does not draw",
-                        head_.file, count, hidden.size()));
+        say("{}: {} of {} samples are hidden by ghost arrays and become NaN, which "
+            "\"nan\": \"transparent\" in a scene does not draw",
+            head_.file, count, hidden.size());
         return Volume(volume.grid(), SampleType::float32, memory).labelled(volume.labels());
     }
 

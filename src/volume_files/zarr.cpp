@@ -25,15 +25,18 @@ using Path = std::filesystem::path;
 struct OtherStore {
     const char* file;
     const char* word;  // in the file
-    const char* name;
+    const char* name;  // and what to do, to end a message
 };
-constexpr OtherStore other_stores[] = {
-    {"attributes.json", "\"n5\"", "N5"},
-    {"attributes.json", "\"blockSize\"", "N5"},
-    {"info", "neuroglancer_multiscale_volume", "Neuroglancer precomputed"},
-    {"info", "\"num_channels\"", "Neuroglancer precomputed"},
-    {"__tiledb_group.tdb", "", "TileDB"},
-    {"__schema", "", "TileDB"}};
+constexpr const char *n5 = "N5, expected Zarr: zarr.N5Store reads it, zarr.save writes Zarr",
+                     *neuroglancer =
+                         "Neuroglancer precomputed, expected Zarr: tensorstore copies it to Zarr",
+                     *tiledb = "TileDB, expected Zarr: tiledb reads it, zarr.save writes Zarr";
+constexpr OtherStore other_stores[] = {{"attributes.json", "\"n5\"", n5},
+                                       {"attributes.json", "\"blockSize\"", n5},
+                                       {"info", "neuroglancer_multiscale_volume", neuroglancer},
+                                       {"info", "\"num_channels\"", neuroglancer},
+                                       {"__tiledb_group.tdb", "", tiledb},
+                                       {"__schema", "", tiledb}};
 
 // Returns the kind of a folder of arrays that is not Zarr; null for other folders.
 const char* other_store(const Path& folder) {
@@ -88,9 +91,8 @@ class ArraySearch {
 
     void say_if_cut() const {
         if (!is_cut_) return;
-        warn(fmt::format(
-            "{}: found more than {} folders, {} arrays or {} levels: the rest is not listed",
-            root_.string(), ZarrStore::most_folders, most_arrays, most_depth));
+        say("{}: found more than {} folders, {} arrays or {} levels: the rest is not listed",
+            root_.string(), ZarrStore::most_folders, most_arrays, most_depth);
     }
 
   private:
@@ -137,7 +139,7 @@ ZarrImage image_of(const ZarrStore& store, const Path& array) {
             level = level_of(node, array);
         } catch (const Error& problem) {
             // A client that may read the array may be kept from what lies above it.
-            if (!is_restricted()) warn(fmt::format("{}: {}", array.string(), problem.what()));
+            if (!is_restricted()) say("{}: {}", array.string(), problem.what());
         }
     }
     if (level) return read_ome_image(node, level);
@@ -193,8 +195,8 @@ void list_contents(const ZarrStore& store, const Path& root, const ZarrImage& im
 // Gives channels the names that the image has for them.
 void name_channels(const ZarrImage& image, std::vector<std::string>& channels) {
     if (!image.channels.empty() && image.channels.size() != channels.size()) {
-        warn(fmt::format("{}: omero: found {} channels, expected {}, as the array has",
-                         image.folder.string(), image.channels.size(), channels.size()));
+        say("{}: omero: found {} channels, expected {}, as the array has", image.folder.string(),
+            image.channels.size(), channels.size());
     }
     for (std::size_t i = 0; i < std::min(channels.size(), image.channels.size()); ++i)
         channels[i] = one_line(image.channels[i]);
@@ -234,8 +236,8 @@ void fit_axes(ZarrImage& image, const ZarrArray& array) {
     image.axes.erase(image.axes.begin(), image.axes.begin() + surplus);
     image.steps.erase(image.steps.begin(), image.steps.begin() + surplus);
     image.firsts.erase(image.firsts.begin(), image.firsts.begin() + surplus);
-    warn(fmt::format("{}: the image does not name its {} axes: the last of t, c, z, y, x are taken",
-                     array.folder.string(), rank));
+    say("{}: the image does not name its {} axes: the last of t, c, z, y, x are taken",
+        array.folder.string(), rank);
 }
 
 }  // namespace
@@ -290,7 +292,7 @@ bool is_zarr(const Path& path) {
 
 Volume open_zarr(const Path& path, const VolumeRequest& request, const VolumeUse& use) {
     if (const char* const other = ZarrStore().has_header(path) ? nullptr : other_store(path))
-        fail("{}: found a folder of {}, expected Zarr", path.string(), other);
+        fail("{}: found a folder of {}", path.string(), other);
     const ZarrStore store(path);
     const Path root = store.root(path.has_filename() ? path : path.parent_path());
     VolumeContents contents;
@@ -311,8 +313,8 @@ Volume open_zarr(const Path& path, const VolumeRequest& request, const VolumeUse
     }
     ZarrChunks chunks(array, {{placed.axes[2], placed.axes[1], placed.axes[0]}, placed.index});
     if (chunks.missing() > 0) {
-        warn(fmt::format("{}: {} of {} chunks are not there: they have the fill value {}",
-                         array.folder.string(), chunks.missing(), chunks.count(), array.fill_text));
+        say("{}: {} of {} chunks are not there: they have the fill value {}", array.folder.string(),
+            chunks.missing(), chunks.count(), array.fill_text);
     }
     if (image.is_labels)
         take_for_labels(array.folder.string(), "the OME-Zarr image", use, placed.grid);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "base/client.h"
 #include "volume_files/zarr_image.h"
 
 namespace lamina {
@@ -58,8 +57,7 @@ void read_zarr_coordinates(const ZarrArray& array, ArrayAxis& axis) {
                                       static_cast<std::size_t>(axis.size), false));
         add_attributes(axis, [&](const char* key) { return text_member(found.attributes, key); });
     } catch (const Error& problem) {
-        warn(fmt::format("{}: its coordinates are not used: {}", array.folder.string(),
-                         problem.what()));
+        say("{}: its coordinates are not used: {}", array.folder.string(), problem.what());
     }
 }
 

@@ -304,8 +304,16 @@ TEST(Choose, TellsFewValuesOfNoiseFromLabels) {
         reason_of([&](double, double, double) { return static_cast<double>(random() % 20); });
     const auto pieces = reason_of(
         [](double i, double j, double k) { return static_cast<int>(i / 5 + j / 7) % 3 + (k > 9); });
-    EXPECT_EQ(noise.find("taken for labels"), noise.npos) << noise;
-    EXPECT_NE(pieces.find("4 whole numbers are taken for labels"), pieces.npos) << pieces;
+    EXPECT_EQ(noise.find("look like labels"), noise.npos) << noise;
+    EXPECT_NE(pieces.find("4 whole numbers look like labels"), pieces.npos) << pieces;
+    // A label around a body that touches it everywhere is no border: the body would be all there is
+    // beside the organ, and be left out.
+    const auto body = reason_of([](double i, double j, double k) {
+        const double least = std::min({i, j, k}), most = std::max({i, j, k});
+        return least < 3 || most > 20 ? 7 : least > 6 && most < 15 ? 3 : 1;
+    });
+    EXPECT_EQ(body.find("clip"), body.npos) << body;
+    EXPECT_NE(body.find("3 whole numbers look like labels: 7, "), body.npos) << body;
 }
 
 }  // namespace

@@ -97,8 +97,10 @@ TEST(DataFiles, ComeBackBitForBit) {
 
 TEST(DataFiles, AreToldFromScenesByTheirBeginning) {
     const TemporaryFolder folder;
-    std::ofstream(folder.path() / "scene.data") << " {\"version\": 1}";
-    EXPECT_EQ(kind_of_file(folder.path() / "scene.data"), FileKind::scene);
+    for (const char* const name : {"scene.data", "s.nrrd", "s.vtu", "s.tif"}) {
+        std::ofstream(folder.path() / name) << " {\"version\": 1}";
+        EXPECT_EQ(kind_of_file(folder.path() / name), FileKind::scene);
+    }
     std::ofstream(folder.path() / "samples.data") << "samples";
     expect_error([&] { kind_of_file(folder.path() / "samples.data"); },
                  {"samples.data", "found samples without a header", "--raw"});

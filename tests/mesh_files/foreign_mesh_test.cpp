@@ -30,10 +30,15 @@ TEST_F(ForeignMesh, IsNamedByItsContent) {
     expect_named("a.vtp", vtk_xml("PolyData"), {"surface", "no volume"});
     expect_named("a", "$MeshFormat\n4.1 0 8\n", {"Gmsh", "meshio"});
     expect_named("a.xml", "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"3.0\">", {"XDMF"});
+    expect_named("b.xml", "<?xml version=\"1.0\"?>\n<dolfin xmlns:dolfin=\"x\">", {"FEniCS"});
+    expect_named("a.dat", "TITLE = \"flow\"\nVARIABLES = \"X\"\n", {"a Tecplot data set"});
+    expect_named("b.dat", "VARIABLES = \"X\", \"Y\"\n", {"a Tecplot data set"});
+    expect_named("a.vol", "mesh3d\n\ndimension\n3\n", {"a Netgen mesh"});
+    expect_named("a.su2", "% comment\nNDIME= 3\n", {"a SU2 mesh"});
 }
 
 TEST_F(ForeignMesh, IsNamedByItsExtension) {
-    expect_named("a.msh", "(0 \"Fluent\")", {"Gmsh"});
+    expect_named("a.msh", "(0 \"Fluent\")", {"Gmsh or ANSYS Fluent"});
     expect_named("a.exo", "CDF\1", {"Exodus", ".vtu"});
     expect_named("a.e", "CDF\2", {"Exodus"});
     expect_named("a.cgns", "\x89HDF\r\n", {"CGNS"});
@@ -42,7 +47,7 @@ TEST_F(ForeignMesh, IsNamedByItsExtension) {
     expect_named("a.vtk.series", "{\"file-series-version\": \"1.0\"}",
                  {"a list of files in time (ParaView)", ".pvd"});
     expect_named("a.plt", "#!TDV112", {"a Tecplot data set"});
-    expect_named("a.inp", "*HEADING\n", {"an Abaqus mesh"});
+    expect_named("a.inp", "*HEADING\n", {"an Abaqus or AVS (UCD) mesh"});
     expect_named("a.med", "\x89HDF\r\n", {"MED"});
 }
 

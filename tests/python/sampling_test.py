@@ -30,6 +30,9 @@ def test_meshes_match_a_linear_field():
     assert np.abs(found - (3 + inside @ SLOPE)).max() < TOLERANCE
     assert np.abs(gradients - SLOPE).max() < TOLERANCE
     assert (lamina.Sampler(mesh).at(inside)[0] == 0).all()
+    mesh = lamina.Mesh(points, [(0, 1, 2, 3)], {"heat": np.array([7.])})
+    with pytest.warns(lamina.PictureWarning, match='"heat" is cell data: averaged to points'):
+        assert (lamina.Sampler(mesh).at(inside)[0] == 7).all()
 
 
 def test_outside_is_nan():

@@ -79,6 +79,8 @@ def test_bad_files(tmp_path):
     file.write_text(json.dumps(SCENE))
     with pytest.raises(lamina.Error, match="holds a scene"):
         lamina.read(file)
+    with pytest.raises(lamina.Error, match="nowhere: no such file"):
+        lamina.read(tmp_path / "nowhere")
     assert not (tmp_path / "b.json").exists()
 
 

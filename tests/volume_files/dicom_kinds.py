@@ -151,7 +151,8 @@ class Kinds:
     def phase_cases(self):
         first, second = self.whole(), self.whole()
         tags = {"TemporalPositionIdentifier": (1, 2), "TriggerTime": ("0", "412.5"), "AcquisitionNumber": (3, 4),
-                "EchoNumbers": (1, 2), "EchoTime": ("9.5", "12.25"), "AcquisitionTime": ("093015.25", "093115")}
+                "EchoNumbers": (1, 2), "EchoTime": ("9.5", "12.25"), "AcquisitionTime": ("093015.25", "093115"),
+                "InversionTime": ("100", "350"), "FlipAngle": ("5", "20")}
         for rank, (word, values) in enumerate(tags.items()):
             slices = []
             for phase, array in enumerate((first, second)):
@@ -205,6 +206,18 @@ class Kinds:
                 setattr(data, word, [.7, .9])
             self.save("dcm_" + word, bare)
             self.case("dcm_" + word, array, says=[f"no PixelSpacing ({word} is taken"])
+        regions = [Dataset(), Dataset()]
+        for data in bare:
+            del data.NominalScannedPixelSpacing, data.ImagerPixelSpacing
+            data.SequenceOfUltrasoundRegions = Sequence(regions)
+        for region in regions:
+            region.PhysicalUnitsXDirection = region.PhysicalUnitsYDirection = 3  # cm
+            region.PhysicalDeltaX, region.PhysicalDeltaY = .09, -.07
+        self.save("dcm_ultrasound", bare)
+        self.case("dcm_ultrasound", array, says=["no PixelSpacing (PhysicalDeltaX and PhysicalDeltaY"])
+        regions[1].PhysicalDeltaX = .08  # two transducers
+        self.save("dcm_ultrasounds", bare)
+        self.case("dcm_ultrasounds", array, says=["PixelAspectRatio"], spacing=(1, 1.5, 2.5), unit="")
         flat = self.stack(array)
         for data in flat:
             del data.ImageOrientationPatient
@@ -223,6 +236,9 @@ class Kinds:
                 setattr(data, word, 2. * z - 5 if word == "SliceLocation" else distance)
             self.save("dcm_by_" + word, slices[::-1])
             self.case("dcm_by_" + word, array, says=[says], origin=origin, spacing=(.9, .7, distance))
+        self.save("dcm_gaps", slices[:3] + slices[5:])  # numbers 3, 5, 7, 13, 15 and so on
+        self.case("dcm_gaps", array[[0, 1, 2, 5, 6, 7]], says=["InstanceNumber: 9 to 11 are missing"], origin=(0, 0, 0),
+                  spacing=(.9, .7, 2))
         for data in slices:
             data.InstanceNumber = 1
         self.save("dcm_nowhere", slices)

@@ -37,7 +37,7 @@ def hdf5_files(cases):
             for key, value in (attributes or {}).items():
                 data.attrs[key] = value
 
-    for part in (labels, lengths, packed, others, imaris, big_data_viewer, vtk_images, itk, linked, refused):
+    for part in (labels, lengths, geometries, packed, others, imaris, big_data_viewer, vtk_images, itk, linked, refused):
         part(h5py, cases, write, add, bad)
     classic(cases, add, bad)
 
@@ -246,6 +246,25 @@ def lengths(h5py, cases, write, add, bad):
         file["volumes"].attrs["element_size_um"] = [2.5, .7, .9]
         file.attrs["origin"] = [3., 2., 1.]
     add("parent.h5", array, steps, (1, 2, 3), unit="um")
+
+
+def geometries(h5py, cases, write, add, bad):
+    """Steps and places that programs write along x, y and z beside an array [z, y, x]."""
+    array = ramp()
+    with h5py.File(cases.path("map.cmap"), "w") as file:
+        file["Chimera/image1/data_zyx"] = array
+        file["Chimera/image1"].attrs.update({"step": [.9, .7, 2.5], "origin": [1., 2., 3.]})
+    add("map.cmap", array, diagonal(.9, .7, 2.5), (1, 2, 3))
+    with h5py.File(cases.path("grains.dream3d"), "w") as file:
+        group = file.create_group("DataContainers/Grains")
+        group["_SIMPL_GEOMETRY/SPACING"] = np.array([.9, .7, 2.5], "f4")
+        group["_SIMPL_GEOMETRY/ORIGIN"] = np.array([1, 2, 3], "f4")
+        group["CellData/Ids"] = array[..., None]
+    add("grains.dream3d", array, diagonal(.9, .7, 2.5), (1.45, 2.35, 4.25))
+    with h5py.File(cases.path("octave.h5"), "w") as file:
+        file["v/value"] = array
+        file["v"].attrs["OCTAVE_NEW_FORMAT"] = np.uint8(1)
+    add("octave.h5", array, warnings=["Octave has written it: its first axis (rows) is taken for x"])
 
 
 def packed(h5py, cases, write, add, bad):

@@ -253,6 +253,8 @@ def others(cases, tifffile):
           resolutionunit=2)
     plain("turned.tif", ["its Orientation 3"], extratags=[(274, "H", 1, 3, True)])
     plain("words.tif", ["its description is in no form that lamina reads"], description="Voxel size 2 um")
+    plain("scan.tif", ["its description is in no form that lamina reads"],
+          description="frameNumbers = 1\nacquisitionNumbers = 1\nframeTimestamps_sec = 0.0\n")  # ScanImage
     plain("lsm.tif", ["what Zeiss (LSM) says"], extratags=[(34412, "B", 8, bytes(8), True)])
     plain("manager.tif", ["what Micro-Manager says"], extratags=[(51123, "s", 0, '{"Slices": 4, "Channels": 2}', True)])
     plain("nodata.tif", ["it says that -9999 is no data (GDAL_NODATA)"], extratags=[(42113, "s", 0, "-9999", True)])
@@ -278,8 +280,28 @@ def others(cases, tifffile):
                 continue
             cases.add(file, half.astype(np.float32))
     bitwise(cases, tifffile)
+    cut_links(cases, tifffile, volume)
     tifffile.imwrite(cases.path("complex.tif"), np.zeros((4, 10, 12), "c8"), photometric="minisblack")
     cases.refuse("complex.tif", "found samples that are complex numbers of 64 bits")
+
+
+def cut_links(cases, tifffile, volume):
+    """Files that end inside the place of the next page, which lies behind the directory that ends the file."""
+    for order in "<>":
+        for big in (False, True):
+            file = f"link{order == '<'}{big}.tif"
+            for page in volume[:2]:
+                tifffile.imwrite(cases.path(file), page, append=os.path.exists(cases.path(file)), byteorder=order,
+                                 bigtiff=big, photometric="minisblack", metadata=None, software=False)
+            with tifffile.TiffFile(cases.path(file)) as tiff:
+                page, code = tiff.pages[0], order + ("Q" if big else "H")
+                head = page.offset + struct.calcsize(code)
+                link = head + (20 if big else 12) * len(page.tags)
+            data = open(cases.path(file), "rb").read()
+            cases.add(file, volume[:2])
+            with open(cases.path("cut_" + file), "wb") as out:
+                out.write(data[:link + 2])
+            cases.refuse("cut_" + file, "page 1: the file ends before the place of the next page")
 
 
 def bitwise(cases, tifffile):
@@ -351,3 +373,8 @@ def folders(cases, tifffile):
     stacks = values_of("uint16", (6, 3, 10, 12), seed=57)
     folder("stacks", [(f"t{t}", stacks[t]) for t in range(6)], metadata={"axes": "ZYX"})
     cases.add("stacks", stacks[4], time=4)
+    folder("bare_stacks", [(f"t{t}", stacks[t]) for t in range(6)], metadata=None)
+    cases.add("bare_stacks", stacks[0], warnings=["the axis of 6 has no name and is taken for times"])
+    cases.add("bare_stacks", stacks[4], time=4)
+    folder("split_stack", [("s1", stacks[0]), ("s2", stacks[1, :2])], metadata=None)
+    cases.add("split_stack", np.concatenate([stacks[0], stacks[1, :2]]), warnings=["all are taken for slices"])
