@@ -5,9 +5,10 @@
 uniform ivec2 drawn_begin;  // column and row of the first pixel that is drawn; row 0 is at the top
 uniform ivec2 drawn_end;    // behind the last one
 
-ivec2 pixel_of_invocation() {
-    return drawn_begin + 8 * ivec2(gl_WorkGroupID.xy) + pixel_in_tile();
-}
+// Returns the pixel of the invocation if its workgroup draws the tile in this column and row.
+ivec2 pixel_of_tile(ivec2 tile) { return drawn_begin + tile_size * tile + pixel_in_tile(); }
+
+ivec2 pixel_of_invocation() { return pixel_of_tile(ivec2(gl_WorkGroupID.xy)); }
 
 // Tells whether a pixel is drawn: tiles at the edges have some that are not.
 bool is_drawn(ivec2 pixel) { return all(lessThan(pixel, drawn_end)); }

@@ -29,9 +29,7 @@ uvec2 ranks_if_dithered(int slab) {
 #endif
 }
 
-void main() {
-    ivec2 pixel = pixel_of_invocation();
-    if (!is_drawn(pixel)) return;
+void draw(ivec2 pixel) {
     Ray ray = view_ray(vec2(pixel) + 0.5);
     REAL2 whole = clip_to_box(ray, slab_depths(first_slab, slab_count));
     if (!(whole.y > whole.x)) return;
@@ -62,3 +60,5 @@ void main() {
     words = packed_codes(codes);
     for (int word = 0; word < CODE_WORDS; ++word) words_of_picture[place + word] = words[word];
 }
+
+#include "gl/march.glsl"

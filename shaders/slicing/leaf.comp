@@ -39,9 +39,7 @@ void keep(int place, RaySum sum) {
 #endif
 #endif
 
-void main() {
-    ivec2 pixel = pixel_of_invocation();
-    if (!is_drawn(pixel)) return;
+void draw(ivec2 pixel) {
     RaySum sum = empty_sum;
     Ray ray = view_ray(vec2(pixel) + 0.5);
     REAL2 whole = clip_to_box(ray, slab_depths(first_slab, slab_count));
@@ -65,3 +63,5 @@ void main() {
 #endif
     write_node(pixel, sum.color, sum.depth);
 }
+
+#include "gl/march.glsl"

@@ -16,8 +16,6 @@ namespace {
 // storage block begins (OpenGL 4.5, table 23.65).
 constexpr int row_alignment = 64;
 
-constexpr int tile_edge = 8;  // of shaders/gl/tile.glsl
-
 std::int64_t ceil_to(std::int64_t value, std::int64_t step) {
     return (value + step - 1) / step * step;
 }
@@ -65,13 +63,19 @@ void set_packing(gl::Defines& defines, const CompositingPlan& plan) {
     defines.set("PACKING", static_cast<int>(packing_of(plan)));
 }
 
+glm::ivec2 set_pixels(gl::Program& program, const DrawnPixels& pixels, int group) {
+    const glm::ivec2 begin(pixels.first_column, pixels.first_row);
+    const glm::ivec2 end(pixels.end_column, pixels.end_row);
+    program.set("drawn_begin", begin);
+    program.set("drawn_end", end);
+    const glm::ivec2 tile(group > 64 ? 16 : 8, group < 64 ? 4 : 8);  // of shaders/gl/tile.glsl
+    return (end - begin + tile - 1) / tile;
+}
+
 void dispatch_pixels(gl::Program& program, const DrawnPixels& pixels) {
     if (pixels.empty()) return;
-    program.set("drawn_begin", glm::ivec2(pixels.first_column, pixels.first_row));
-    program.set("drawn_end", glm::ivec2(pixels.end_column, pixels.end_row));
-    const auto tiles = [](int begin, int end) { return (end - begin + tile_edge - 1) / tile_edge; };
-    program.dispatch(tiles(pixels.first_column, pixels.end_column),
-                     tiles(pixels.first_row, pixels.end_row));
+    const glm::ivec2 tiles = set_pixels(program, pixels, 64);
+    program.dispatch(tiles.x, tiles.y);
 }
 
 GlPixels::GlPixels(PixelPacking packing, int width, int height)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "gl/api.h"
@@ -24,7 +25,10 @@ struct DrawnPixels {
 
     bool empty() const { return first_column >= end_column || first_row >= end_row; }
 };
-// Runs a compute shader that includes gl/pixels.glsl for these pixels, unless there are none.
+// Tells a compute shader that includes gl/pixels.glsl which pixels it draws, and returns the
+// columns and rows of their tiles. `group`: invocations of a workgroup.
+glm::ivec2 set_pixels(gl::Program& program, const DrawnPixels& pixels, int group);
+// Runs such a shader, with workgroups of 64, for these pixels, unless there are none.
 void dispatch_pixels(gl::Program& program, const DrawnPixels& pixels);
 
 // The picture of a compute shader: pixels of packed words in a storage buffer, row 0 at the top.

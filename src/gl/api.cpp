@@ -156,6 +156,7 @@ Buffer Buffer::make_mapped(std::size_t byte_count) {
 
 void Buffer::write_bytes(std::span<const std::byte> bytes, std::size_t byte_offset) {
     assert(byte_offset + bytes.size() <= byte_count());
+    current_context()->counts().bytes_uploaded += static_cast<std::int64_t>(bytes.size());
     api().NamedBufferSubData(id(), static_cast<GLintptr>(byte_offset),
                              static_cast<GLsizeiptr>(bytes.size()), bytes.data());
     check("writing a buffer");

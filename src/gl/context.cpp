@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdlib>
 #include <functional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,6 +65,27 @@ const char* advice(ContextKind kind) {
     unreachable_enum();
 }
 
+// Sets how rays are marched, from the words of the environment variable LAMINA_RAYS, with which
+// tools/gpu_check compares the ways (docs/gpu.md).
+void set_rays(Capabilities& capabilities) {
+    const char* const words = std::getenv("LAMINA_RAYS");
+    std::istringstream all(words != nullptr ? words : "");
+    for (std::string word; std::getline(all, word, ',');) {
+        if (word == "words" || word == "texels") {
+            capabilities.sample_words = word == "words";
+        } else if (word == "32" || word == "64" || word == "128") {
+            capabilities.rays.group = std::stoi(word);
+        } else if (word == "queue") {
+            if (capabilities.software)
+                fail("LAMINA_RAYS: queue is for GPUs, because software ends long loops: {}",
+                     capabilities.renderer);
+            capabilities.rays.queue = true;
+        } else {
+            fail("LAMINA_RAYS: found {}, expected words, texels, 32, 64, 128 or queue", word);
+        }
+    }
+}
+
 thread_local Context* current_of_thread = nullptr;
 
 }  // namespace
@@ -81,13 +104,17 @@ std::unique_ptr<Context> Context::create(ContextKind kind) {
 
     std::vector<std::string> reasons;
     for (const Attempt& attempt : attempts) {
+        std::unique_ptr<Context> made;
         try {
-            return attempt();
+            made = attempt();
         } catch (const Error& error) {
             const std::string reason = error.what();
             if (std::find(reasons.begin(), reasons.end(), reason) == reasons.end())
                 reasons.push_back(reason);
+            continue;
         }
+        set_rays(made->capabilities_);
+        return made;
     }
     fail("no OpenGL 4.5 core context ({}): {}", fmt::join(reasons, "; "), advice(kind));
 }

@@ -15,7 +15,8 @@ namespace lamina::gl {
 // Memory and uploads of a context.
 struct ContextCounts {
     std::int64_t bytes_allocated = 0;  // bytes of the buffers and textures that exist now
-    std::int64_t bytes_uploaded = 0;   // bytes uploaded to textures so far
+    // Bytes uploaded to textures and buffers so far, without those written to mapped buffers.
+    std::int64_t bytes_uploaded = 0;
 };
 
 // any: a GPU (EGL), else OSMesa, else software EGL. gpu: a GPU (EGL). egl: a GPU, else software.

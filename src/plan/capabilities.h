@@ -3,9 +3,20 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace lamina {
+
+// How compute shaders march the rays of volumes. Pictures do not depend on it.
+struct RayDispatch {
+    int group = 64;  // rays of a workgroup: 32, 64 or 128 (shaders/gl/tile.glsl)
+    // True: workgroups take tiles from a queue (shaders/gl/march.glsl). For GPUs, because software
+    // ends all loops of an invocation together, however many tiles it draws.
+    bool queue = false;
+
+    friend bool operator==(const RayDispatch&, const RayDispatch&) = default;
+};
 
 // Abilities and limits of an OpenGL context (gl::Context) or the cpu engine (cpu_capabilities()).
 struct Capabilities {
@@ -17,7 +28,11 @@ struct Capabilities {
     int max_3d_texture_size = 0;  // GL_MAX_3D_TEXTURE_SIZE
     std::int64_t max_storage_bytes = std::int64_t{1} << 27;  // GL_MAX_SHADER_STORAGE_BLOCK_SIZE
     int max_buffer_texels = 0;  // GL_MAX_TEXTURE_BUFFER_SIZE; 0: no compute shaders
-    int subpixel_bits = 8;      // GL_SUBPIXEL_BITS: corners are rounded to a grid this fine
+    RayDispatch rays;
+    // True: cells are read from words of storage buffers, which takes less time than texels on
+    // llvmpipe; on GPUs nobody has measured it yet. None: in software.
+    std::optional<bool> sample_words;
+    int subpixel_bits = 8;  // GL_SUBPIXEL_BITS: corners are rounded to a grid this fine
     // Largest texture that is made; larger volumes are cut into bricks. OpenGL reports no such
     // limit (docs/numerics.md, section 2): 1 GiB in software and on GPUs of unknown memory.
     std::uint64_t max_texture_bytes = std::uint64_t{1} << 30;

@@ -167,6 +167,7 @@ struct SlicedPicture : CompositingPlan, LightPlan {
     bool precise_rays = true;     // rays and chords are computed in double precision
     bool nan_transparent = false;  // samples may be NaN, which is transparent
     bool nearest = false;          // VolumeLookup::nearest: cells are voxels
+    RayDispatch rays;              // of compute shaders
     // Largest number of slabs that one dispatch marches, because drivers end long loops.
     int marched_slabs = std::numeric_limits<int>::max();
     // Draw calls for a frame. Each is waited for, so that progress is shown and Ctrl-C works.

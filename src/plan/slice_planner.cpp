@@ -94,6 +94,7 @@ struct SlicePlanner {
         if (classification == Classification::preintegrated) choose_integral(slice);
         slice.bricks = choose_bricks(slice.sampling, slice.float_texture);
         slice.words = choose_words(slice);
+        slice.rays = capabilities.rays;
 
         if (scene.target == Target::emulated) slice.emulation = scene.emulate;
         const TreeQuestion question =
@@ -248,16 +249,15 @@ struct SlicePlanner {
                                capabilities);
     }
 
-    // Tells whether cells are read from words of storage buffers: where they are exact and fit. On
-    // llvmpipe this takes less time than texels; on GPUs nobody has measured it yet.
+    // Tells whether cells are read from words of storage buffers: if they are exact and fit.
     bool choose_words(const SlicePlan& slice) const {
         const std::uint64_t sample_bytes = slice.float_texture ? 4 : bytes_of(facts.type);
         const auto fits = [&](const TextureBrick& brick) {
             return bytes_of_brick(brick, sample_bytes) <=
                    static_cast<std::uint64_t>(capabilities.max_storage_bytes);
         };
-        return !capabilities.cpu && capabilities.software && slice.integrates_cells() &&
-               std::ranges::all_of(slice.bricks, fits);
+        return !capabilities.cpu && capabilities.sample_words.value_or(capabilities.software) &&
+               slice.integrates_cells() && std::ranges::all_of(slice.bricks, fits);
     }
 
     TreeQuestion tree_question(int slabs, std::size_t bricks, double slab_error) const {

@@ -30,7 +30,8 @@ class ProjectRenderer : public FrameRenderer {
         return plan.project.picture() == plan_.picture();
     }
     virtual ProjectReuse reusable() const = 0;
-    // The next two functions describe the last frame.
+    // The next three functions describe the last frame.
+    bool sorts_tets() const { return order_->method() != OrderMethod::none; }
     const OrderReport& order_report() const { return order_->report(); }
     std::int64_t tets_drawn() const { return tets_drawn_; }  // tets that cover a pixel centre
 

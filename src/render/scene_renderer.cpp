@@ -316,6 +316,7 @@ class ProjectDrawing : public Drawing {
 
     void add_to(FrameStatistics& statistics) const override {
         statistics.tets_drawn = renderer_->tets_drawn();
+        if (!renderer_->sorts_tets()) return;
         const OrderReport& order = renderer_->order_report();
         statistics.counts["cycles"] = order.cycles;
         statistics.counts["cyclic_tets"] = order.cyclic_tets;

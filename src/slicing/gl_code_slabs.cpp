@@ -49,7 +49,9 @@ GlCodeSlabs::GlCodeSlabs(const GlSlabSource& source, const SlicePlan& plan,
 }
 
 gl::Defines GlCodeSlabs::wanted_defines() const {
-    return slab_defines(plan_, source_.defines());
+    gl::Defines defines = slab_defines(plan_, source_.defines());
+    set_rays(defines, plan_.rays);
+    return defines;
 }
 
 void GlCodeSlabs::take_plan() {

@@ -4,6 +4,24 @@
 #include <algorithm>
 
 namespace lamina {
+namespace {
+
+constexpr unsigned queue_binding = 3;
+
+// Workgroups that take tiles from a queue: more than any GPU runs at once, as those that begin late
+// find the queue empty.
+constexpr int most_groups = 4096;
+
+}  // namespace
+
+void set_rays(gl::Defines& defines, const RayDispatch& rays) {
+    defines.set("GROUP", rays.group);
+    if (rays.queue) defines.set("QUEUE", 1);
+}
+
+GlMarch::GlMarch(const GlSlabSource& source, const SlicePlan& plan) : source_(source), plan_(plan) {
+    if (plan.rays.queue) next_tile_.emplace(sizeof(std::uint32_t));
+}
 
 int dispatches_of(const SlicePlan& plan, int slabs) {
     return slabs / plan.marched_slabs + (slabs % plan.marched_slabs != 0 ? 1 : 0);
@@ -50,11 +68,22 @@ DrawnPixels GlMarch::drawn_in(const RowBand& band) const {
             std::min(seen_.end_row, band.first_row + band.rows)};
 }
 
-void GlMarch::draw(const Part& part, const RowBand& band, gl::Program& program) const {
+void GlMarch::draw(const Part& part, const RowBand& band, gl::Program& program) {
     program.set("first_slab", static_cast<float>(part.slabs.first));
     program.set("slab_count", static_cast<float>(part.slabs.count));
     source_.set_brick(program, *view_, slabs_, part.brick);
-    dispatch_pixels(program, drawn_in(band));
+    const DrawnPixels pixels = drawn_in(band);
+    if (pixels.empty()) return;
+    const glm::ivec2 tiles = set_pixels(program, pixels, plan_.rays.group);
+    if (!plan_.rays.queue) {
+        program.dispatch(tiles.x, tiles.y);
+        return;
+    }
+    program.set("tile_columns", tiles.x);
+    program.set("tile_count", tiles.x * tiles.y);
+    next_tile_->clear();
+    next_tile_->bind_storage(queue_binding);
+    program.dispatch(std::min(tiles.x * tiles.y, most_groups));
 }
 
 }  // namespace lamina

@@ -14,12 +14,15 @@
 
 namespace lamina {
 
+// Sets the definitions of shaders/gl/march.glsl.
+void set_rays(gl::Defines& defines, const RayDispatch& rays);
+
 // Tells compute shaders that march slabs (leaf.comp, codes.comp) which slabs of which bricks they
 // draw, in which pixels.
 class GlMarch {
   public:
     // `source` and `plan` must outlive the march.
-    GlMarch(const GlSlabSource& source, const SlicePlan& plan) : source_(source), plan_(plan) {}
+    GlMarch(const GlSlabSource& source, const SlicePlan& plan);
 
     // Sets the view of the march and of the program.
     void set_view(const View& view, const Slabs& slabs, Order order, gl::Program& program);
@@ -35,7 +38,7 @@ class GlMarch {
     const std::vector<Part>& parts_of(const SampleSpan& span);
     // Draws a part in the pixels of a band that may show something. Uniforms of
     // GlSlabSource::bind() must be set.
-    void draw(const Part& part, const RowBand& band, gl::Program& program) const;
+    void draw(const Part& part, const RowBand& band, gl::Program& program);
     DrawnPixels drawn_in(const RowBand& band) const;
 
   private:
@@ -54,6 +57,7 @@ class GlMarch {
     std::vector<std::size_t> brick_order_;  // all bricks
     std::vector<SeenBrick> bricks_;         // in this order
     std::vector<Part> parts_;               // of the last span
+    std::optional<gl::Buffer> next_tile_;   // of the queue, if there is one
 };
 
 // A picture that compute shaders march (GlShaderTree, GlCodeSlabs).

@@ -65,6 +65,7 @@ gl::Defines leaf_defines(const SlicePlan& plan, gl::Defines segments, NodePlace 
         segments.set("BRICK_EDGE", static_cast<int>(MinMaxBricks::edge));
     }
     if (plan.ends_early()) segments.set("ENDS_EARLY", 1);
+    set_rays(segments, plan.rays);
     return segments;
 }
 

@@ -49,6 +49,28 @@ TEST_P(AnyContext, DescribesItself) {
     }
 }
 
+class RaysVariable {
+  public:
+    explicit RaysVariable(const char* words) { setenv("LAMINA_RAYS", words, 1); }
+    ~RaysVariable() { unsetenv("LAMINA_RAYS"); }
+};
+
+TEST(ContextRays, AreMarchedAsTheVariableSays) {
+    const RaysVariable set("texels,128");
+    const auto context = Context::create(ContextKind::osmesa);
+    EXPECT_EQ(context->capabilities().rays, (RayDispatch{128, false}));
+    EXPECT_EQ(context->capabilities().sample_words, false);
+}
+
+TEST(ContextRays, RefuseOtherWords) {
+    const auto make = [] { Context::create(ContextKind::osmesa); };
+    const RaysVariable unknown("texels,96");
+    EXPECT_EQ(error_of(make),
+              "LAMINA_RAYS: found 96, expected words, texels, 32, 64, 128 or queue");
+    const RaysVariable queue("queue");
+    expect_error(make, {"LAMINA_RAYS: queue is for GPUs"});
+}
+
 TEST_P(AnyContext, HasNoErrorToBeginWith) {
     EXPECT_NO_THROW(check("beginning"));
 }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "gl/gl_fixture.h"
 #include "support/expect_error.h"
 #include "tiles/cpu_capabilities.h"
 
@@ -38,6 +39,20 @@ TEST_P(SelftestGroup, Passes) {
 
 INSTANTIATE_TEST_SUITE_P(All, SelftestGroup, testing::ValuesIn(selftest_groups()),
                          [](const auto& group) { return group.param; });
+
+using OpenGlSelftest = gl::EveryContextTest;
+INSTANTIATE_TEST_SUITE_P(Contexts, OpenGlSelftest, gl::both_contexts, gl::context_name);
+
+// Rays that walk need no order, so no cycle is found.
+TEST_P(OpenGlSelftest, AsksForCyclesOnlyIfTetsAreSorted) {
+    std::vector<SelftestCase> cases = selftest_cases({"meshes"});
+    std::erase_if(cases, [](const SelftestCase& each) { return each.scene != "cyclic"; });
+    EXPECT_GE(cases.size(), 2u);
+    const PictureMaker maker(capabilities());
+    for (const SelftestResult& result : run_selftest(cases, maker))
+        EXPECT_EQ(result.outcome.verdict, Verdict::passed)
+            << result.way << ": " << result.outcome.note;
+}
 
 TEST(Selftest, HasManyCasesUnderDifferentNames) {
     const std::vector<SelftestCase> cases = selftest_cases({});

@@ -93,5 +93,25 @@ TEST_P(MarchTest, DispatchesAndBricksKeepExactPictures) {
     }
 }
 
+// Each ray is marched alone, whatever tile and workgroup draw it and wherever its samples lie.
+TEST_P(MarchTest, EveryDispatchOfRaysDrawsTheSame) {
+    Scene scene = scene_of(64, many_points());
+    for (const Target target : {Target::float32, Target::emulated}) {
+        for (const Classification each : {Classification::exact, Classification::preintegrated}) {
+            scene.target = target;
+            scene.slice.classification = each;
+            const Image expected = render(volume_, scene, capabilities());
+            for (const RayDispatch& rays :
+                 {RayDispatch{32, false}, RayDispatch{64, true}, RayDispatch{128, true}}) {
+                Capabilities other = capabilities();
+                other.rays = rays;
+                other.sample_words = !plan_of(scene, capabilities()).words;
+                EXPECT_EQ(render(volume_, scene, other).rgba, expected.rgba)
+                    << name_of(each) << ", workgroups of " << rays.group;
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lamina

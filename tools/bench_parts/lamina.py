@@ -2,6 +2,7 @@
 """`lamina`, as a program that is run."""
 import json
 import math
+import os
 import pathlib
 import shlex
 import subprocess
@@ -14,6 +15,7 @@ class OutOfTime(SystemExit):
 
 class Lamina:
     deadline = None  # by time.monotonic(): runs end then; None: never
+    variables = {}  # of the environment, beside those that are set
 
     def __init__(self, program, folder):
         """folder: for pictures and statistics; the caller removes it."""
@@ -25,7 +27,8 @@ class Lamina:
         command = [str(self.program), *map(str, arguments)]
         left = None if self.deadline is None else max(0, self.deadline - time.monotonic())
         try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=left)
+            done = subprocess.run(command, capture_output=True, text=True, timeout=left,
+                                  env={**os.environ, **self.variables})
         except subprocess.TimeoutExpired:
             raise OutOfTime(f"out of time: {shlex.join(command)}")
         except OSError as error:

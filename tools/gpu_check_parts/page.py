@@ -30,8 +30,10 @@ def failures(report):
         if too_far(result):
             found.append(f"{result['scene']}: by EGL off by {result['egl']['linf']:.3g} / 255, by the cpu engine by "
                          f"{result['cpu']['linf']:.3g} / 255")
-    found += [f"{result['scene']}: {result['error']}" for result in [*report["pictures"], *report["frames"]]
-              if "error" in result]
+    found += [f"{way['scene']}, {way['way']}: off from the first way by {way['apart']:.3g} / 255"
+              for way in report["ways"] if way.get("apart", 0) > ALLOWED]
+    found += [f"{result['scene']}: {result['error']}"
+              for result in [*report["pictures"], *report["frames"], *report["ways"]] if "error" in result]
     return found
 
 
@@ -56,6 +58,12 @@ def way_name(way):
 def way_row(way):
     opengl = "" if way["opengl_ms"] is None else f"{way['opengl_ms']:.3f}"
     return [*way_name(way), opengl, f"{way['wall_ms']:.3f}", f"{way['times_as_fast']:.2f}"]
+
+
+def frame_way_row(way):
+    if "frame_ms" not in way:
+        return [way["scene"], way["way"], "", way.get("missing") or way.get("error")]
+    return [way["scene"], way["way"], f"{way['frame_ms']['median']:.2f}", f"{way['apart']:.3g}"]
 
 
 def stage_text(frames):
@@ -98,6 +106,11 @@ words of a buffer. Medians in ms; "times as fast" as the kernel's fragment shade
 <p>Errors are the largest of any channel, in 1/255, against the reference tracer; "apart" is EGL against the cpu
 engine.</p>
 {table(["scene", "plan", "EGL", "cpu", "apart"], map(picture_row, report["pictures"]))}
+<h2>Ways</h2>
+<p>Medians in ms of frames by EGL, 800 x 600 pixels (with --quick 96 x 72): cells as texels or as words of a buffer,
+workgroups of so many rays, each of which draws a tile or takes tiles from a queue; compute shaders or fragments. "Apart" is the
+picture against the scene's first way, in 1/255.</p>
+{table(["scene", "way", "EGL", "apart"], map(frame_way_row, report["ways"]))}
 <h2>Frames</h2>
 <p>Medians in ms, the camera turning by 3 degrees a frame, of 20 frames by EGL after 1 s of warm-up, and of 5 by the cpu
 engine on all cores (with --quick of 2 each); "first" is the first picture from reading on. Stages are of another run.

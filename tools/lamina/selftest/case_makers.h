@@ -16,7 +16,7 @@ struct MeshScene {
     std::string name, about;
     Scene scene;
     std::function<MeshData()> mesh;
-    bool cyclic = false;  // its visibility order has cycles; the renderer must report them
+    bool cyclic = false;  // its visibility order has cycles; a renderer that sorts must report them
 };
 
 // Returns one case for each way to draw that a scene allows; ways that draw meshes need a mesh.
