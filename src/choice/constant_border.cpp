@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 
 #include "choice/field.h"
 
@@ -18,6 +17,9 @@ constexpr double most_alike = .5;
 // Share of the range by which a thing is higher than the empty space around it; air in a border of
 // a lower value is not.
 constexpr double least_rise = .25;
+// One sample in so many of a layer may have another value: marks are burnt into borders, too. None
+// if the layer has the lowest value of all: others are then more probably things in empty space.
+constexpr std::int64_t odd_share = 1000;
 constexpr std::int64_t most_share = 3;  // at least 1 / most_share of an axis is inside
 // Number of samples from which a median is taken; of larger layers every n-th counts.
 constexpr std::int64_t most_for_median = std::int64_t{1} << 20;
@@ -42,6 +44,7 @@ class Peeling {
                 }
             }
         } while (leave_no_borders());
+        for (BorderLayers& layers : found_.layers) list_odd(layers);
         return std::move(found_);
     }
 
@@ -87,33 +90,39 @@ class Peeling {
         return static_cast<double>(alike) / static_cast<double>(box.count());
     }
 
-    bool all_are(const SampleBox& box, T value) const {
+    // Tells if at most `odd` samples have another value.
+    bool almost_all_are(const SampleBox& box, T value, std::int64_t odd) const {
         return for_each_row(box, [&](const T* begin, const T* end) {
-            return std::all_of(begin, end, [&](T one) { return one == value; });
+            odd -= (end - begin) - std::count(begin, end, value);
+            return odd >= 0;
         });
     }
 
-    // Returns the number of layers, up to `most`, whose samples all have a value.
+    // Returns the number of layers, up to `most`, whose samples have a value, but for a few.
     std::int64_t width(std::size_t axis, bool upper, T value, std::int64_t most) const {
         std::int64_t found = 0;
+        const std::int64_t odd = static_cast<double>(value) == range_.lo
+                                     ? 0
+                                     : layers(axis, upper, 0, 1).count() / odd_share;
         if (axis > 0) {
-            while (found < most && all_are(layers(axis, upper, found, 1), value)) ++found;
+            while (found < most && almost_all_are(layers(axis, upper, found, 1), value, odd))
+                ++found;
             return found;
         }
         // Layers across x lie apart in memory, so rows are read instead, plane by plane.
         found = most;
+        std::vector<std::int64_t> odd_in(static_cast<std::size_t>(most));
         const SampleBox& inside = found_.inside;
         for (std::int64_t z = 0; z < inside.size[2] && found > 0; ++z) {
             SampleBox plane = layers(axis, upper, 0, found);
             plane.first[2] += z;
             plane.size[2] = 1;
             for_each_row(plane, [&](const T* begin, const T* end) {
-                const auto other = [&](T one) { return one != value; };
-                found = std::min<std::int64_t>(
-                    found, upper ? std::find_if(std::reverse_iterator(end),
-                                                std::reverse_iterator(begin), other) -
-                                       std::reverse_iterator(end)
-                                 : std::find_if(begin, end, other) - begin);
+                for (std::int64_t i = 0; i < found; ++i) {
+                    if ((upper ? end[-1 - i] : begin[i]) != value &&
+                        ++odd_in[static_cast<std::size_t>(i)] > odd)
+                        found = i;
+                }
                 return found > 0;
             });
         }
@@ -138,11 +147,42 @@ class Peeling {
         return static_cast<double>(*middle);
     }
 
-    T first_of(const SampleBox& box) const {
-        const SampleBox one{box.first, {1, 1, 1}};
-        return visit_window<T>(volume_, one, [&](const SampleWindow<T>& window) {
-            return window.at(one.first[0], one.first[1], one.first[2]);
-        });
+    T sample(const std::array<std::int64_t, 3>& at) const {
+        return visit_window<T>(
+            volume_, SampleBox{at, {1, 1, 1}},
+            [&](const SampleWindow<T>& window) { return window.at(at[0], at[1], at[2]); });
+    }
+
+    // Returns the value that most of a layer has if it is almost constant, although a corner or the
+    // middle may be odd.
+    T value_of(const SampleBox& layer) const {
+        std::array<std::int64_t, 3> middle{}, last{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            middle[axis] = layer.first[axis] + layer.size[axis] / 2;
+            last[axis] = layer.first[axis] + layer.size[axis] - 1;
+        }
+        const T first = sample(layer.first);
+        return sample(middle) == sample(last) ? sample(last) : first;
+    }
+
+    void list_odd(BorderLayers& layers) const {
+        const auto& size = volume_.grid().size;
+        const SampleBox& box = layers.samples;
+        for (std::int64_t z = box.first[2]; z < box.first[2] + box.size[2]; ++z) {
+            SampleBox plane = box;
+            plane.first[2] = z;
+            plane.size[2] = 1;
+            std::int64_t y = box.first[1];
+            for_each_row(plane, [&](const T* begin, const T* end) {
+                for (const T* at = begin; at != end; ++at) {
+                    if (static_cast<double>(*at) == layers.value) continue;
+                    layers.odd.push_back({(z * size[1] + y) * size[0] + box.first[0] + (at - begin),
+                                          static_cast<double>(*at)});
+                }
+                ++y;
+                return true;
+            });
+        }
     }
 
     bool take_away(std::size_t axis, bool upper) {
@@ -150,7 +190,7 @@ class Peeling {
         const std::int64_t most = found_.inside.size[axis] - size / most_share - 1;
         bool& done = done_[axis][upper ? 1 : 0];
         if (most <= 0 || done) return false;
-        const T value = first_of(layers(axis, upper, 0, 1));
+        const T value = value_of(layers(axis, upper, 0, 1));
         const std::int64_t alike = width(axis, upper, value, most);
         if (alike == 0) return false;
         found_.layers.push_back(
@@ -171,7 +211,7 @@ class Peeling {
     // too, as in a field that varies along one axis alone; behind a frame there may be clean air.
     bool is_border(BorderLayers& found) const {
         const SampleBox behind = layers(found.axis, found.upper, 0, 1);
-        if (!is_around(found) && all_are(behind, first_of(behind))) return false;
+        if (!is_around(found) && almost_all_are(behind, sample(behind.first), 0)) return false;
         found.behind = median(behind, found.value);
         const bool space =
             found.value == range_.lo &&

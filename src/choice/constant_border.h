@@ -14,14 +14,21 @@
 
 namespace lamina {
 
-// Layers of samples at a side of a volume, all of one value.
+// Layers of samples at a side of a volume, all of one value. If this is not the volume's lowest,
+// one sample in 1000 of each layer may have another, such as that of a burnt-in mark.
 struct BorderLayers {
+    struct Odd {
+        std::int64_t index = 0;  // of the sample in the volume, x fastest
+        double value = 0;
+    };
+
     std::size_t axis = 0;
     bool upper = false;  // at the axis's end, else at its beginning
     std::int64_t width = 0;
     double value = 0;
     double behind = 0;  // median of the first layer inside
     SampleBox samples{};
+    std::vector<Odd> odd{};  // samples of other values
 };
 
 // A border of constant values, as programs put around data to enlarge them: it means nothing, but

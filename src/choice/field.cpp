@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -61,13 +62,31 @@ double counted_in(const SampleBox& box, const Volume& volume) {
     return static_cast<double>(count);
 }
 
-// Lowers the weight of a value.
-void take_away(std::vector<WeightedValue>& values, double value, double weight) {
+// Returns how often values occur in a border, of those that weighted() takes of a volume.
+std::map<double, double> counted_in(const ConstantBorder& border, const Volume& volume) {
+    const bool all = volume.type() != SampleType::float32;
+    const std::int64_t step = all ? 1 : sample_step(volume.grid());
+    std::map<double, double> counted;
+    for (const BorderLayers& layers : border.layers) {
+        double alike = counted_in(layers.samples, volume);
+        for (const BorderLayers::Odd& odd : layers.odd) {
+            if (odd.index % step != 0) continue;
+            --alike;
+            if (std::isfinite(odd.value)) ++counted[odd.value];
+        }
+        counted[layers.value] += alike;
+    }
+    return counted;
+}
+
+// Lowers the weights of values.
+void take_away(std::vector<WeightedValue>& values, std::map<double, double> away) {
     for (WeightedValue& one : values) {
-        if (one.value != value) continue;
-        const double less = std::min(one.weight, weight);
+        const auto found = away.find(one.value);
+        if (found == away.end()) continue;
+        const double less = std::min(one.weight, found->second);
         one.weight -= less;
-        weight -= less;
+        found->second -= less;
     }
 }
 
@@ -266,10 +285,7 @@ SampleBox VolumeField::inside() const {
 ValueDistribution VolumeField::distribution() const {
     std::vector<WeightedValue> values =
         weighted(values_ != nullptr ? *values_ : count_values(volume_), volume_.type());
-    if (border_) {
-        for (const BorderLayers& layers : border_->layers)
-            take_away(values, layers.value, counted_in(layers.samples, volume_));
-    }
+    if (border_) take_away(values, counted_in(*border_, volume_));
     return ValueDistribution(std::move(values));
 }
 

@@ -17,7 +17,6 @@
 #include "mesh/tet_mesh.h"
 #include "optics/colormap.h"
 #include "scene/camera.h"
-#include "scene/clip.h"
 #include "scene/given_transfer.h"
 
 namespace lamina {

@@ -213,6 +213,46 @@ TEST(ConstantBorder, IsNoLayerOfARamp) {
     }
 }
 
+// Marks burnt into a border, of up to a thousandth of a layer, are cut away with it and are no
+// values of the data; more than that is no border.
+TEST(ConstantBorder, MayHaveAFewOddSamples) {
+    const Choices bare = chosen_for(bordered<std::int16_t>(3000, {}));
+    const Volume clean = bordered<std::int16_t>(3000, Widths::all(5));
+    const auto& size = clean.grid().size;
+    static_assert(edge * edge >= 1000);  // one sample of the smallest layer may be odd
+    const auto* const samples = static_cast<const std::int16_t*>(clean.data());
+    const auto marked = [&](std::int64_t marks) {
+        return test::volume_of<std::int16_t>(clean.grid(), [&](double i, double j, double k) {
+            if (i == 0 && j == 0 && k == 0) return -4000.;
+            if (i == 2 && k == 30 && j >= 20 && j < 20 + static_cast<double>(marks)) return 9000.;
+            const double row = k * static_cast<double>(size[1]) + j;
+            const double place = row * static_cast<double>(size[0]) + i;
+            return double(samples[static_cast<std::size_t>(place)]);
+        });
+    };
+    const Volume few = marked(1), many = marked(25);
+    const Choices found = chosen_for(few);
+    expect_scan_is_left(found.scene.clip);
+    EXPECT_EQ(found.scene.transfer_function, bare.scene.transfer_function);
+    const auto here = find_constant_border(few, {-4000, 9000});
+    const auto there = find_constant_border(test::stored(few), {-4000, 9000});
+    ASSERT_TRUE(here && there);
+    EXPECT_EQ(here->inside.size, there->inside.size);
+    std::size_t odd = 0;
+    for (std::size_t i = 0; i < here->layers.size(); ++i) {
+        ASSERT_EQ(here->layers[i].odd.size(), there->layers[i].odd.size());
+        for (std::size_t k = 0; k < here->layers[i].odd.size(); ++k) {
+            EXPECT_EQ(here->layers[i].odd[k].index, there->layers[i].odd[k].index);
+            EXPECT_EQ(here->layers[i].odd[k].value, there->layers[i].odd[k].value);
+        }
+        odd += here->layers[i].odd.size();
+    }
+    EXPECT_EQ(odd, 2u);
+    const auto others = find_constant_border(many, {-4000, 9000});
+    ASSERT_TRUE(others);
+    EXPECT_EQ(others->inside.first, (std::array<std::int64_t, 3>{0, 5, 5}));
+}
+
 // Layers of more samples than are read at once.
 TEST(ConstantBorder, IsFoundInFilesWithoutReadingThemWhole) {
     const Volume volume = test::volume_of<std::uint8_t>(

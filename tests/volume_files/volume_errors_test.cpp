@@ -114,6 +114,7 @@ TEST_F(VolumeErrors, NameFormatsThatAreNotRead) {
            {"the description of a BigDataViewer volume", ".h5"});
     expect("a.vol", zeros, {"found samples without a header", "--raw"});
     expect("a.mp4", zeros, {"found a film", "ffmpeg"});
+    expect("a.stl", "solid a\n", {"found a surface", "trimesh", ".npy"});
     expect("a", marked(0, "LASF"), {"found a cloud of points"});
     expect("a.fld", "# AVS field file\n", {"found an AVS field", ".vti"});
     expect("a.mha", "ObjectType = Mesh\nNDims = 3\n", {"ObjectType: found 'Mesh'", "Image"});
