@@ -128,9 +128,10 @@ double extinction_of(double share) {
 // The labels that a volume has, with what its file says of them.
 class LabelTable {
   public:
-    // `said` may be null.
-    LabelTable(const ValueDistribution& values, const VolumeLabels* said)
-        : values_(values), said_(said), of_value_(values.distinct(), nullptr) {
+    // `said` may be null; then `around` is the value around the data, if there is one.
+    LabelTable(const ValueDistribution& values, const VolumeLabels* said,
+               const std::optional<double>& around)
+        : values_(values), said_(said), around_(around), of_value_(values.distinct(), nullptr) {
         for (std::size_t i = 0; said != nullptr && i < of_value_.size(); ++i) {
             const auto found = std::ranges::lower_bound(said->list, value(i), {}, &Label::code);
             if (found != said->list.end() && found->code == value(i)) of_value_[i] = &*found;
@@ -150,13 +151,16 @@ class LabelTable {
         return label(i) != nullptr ? std::strtold(label(i)->number.c_str(), nullptr) : value(i);
     }
 
-    // Returns the place of the background: of the most frequent value if it is negative, as
-    // programs mark voxels without a label, else of the label 0, else of the most frequent value
-    // of several.
+    // Returns the place of the background. Of what the file calls labels, that is the most frequent
+    // value if it is negative, as programs mark voxels without a label, else the label 0, else the
+    // most frequent value of several. Of other values it is the one around the data, else the most
+    // frequent one.
     std::optional<std::size_t> background() const {
         std::size_t common = 0;
         for (std::size_t i = 1; i < size(); ++i)
             if (share(i) > share(common)) common = i;
+        for (std::size_t i = 0; said_ == nullptr && around_ && i < size(); ++i)
+            if (value(i) == *around_) return i;
         if (said_ == nullptr || number(common) < 0) return common;
         for (std::size_t i = 0; i < size(); ++i)
             if (number(i) == 0) return i;
@@ -166,6 +170,7 @@ class LabelTable {
   private:
     const ValueDistribution& values_;
     const VolumeLabels* said_;
+    const std::optional<double> around_;
     std::vector<const Label*> of_value_;
 };
 
@@ -191,8 +196,9 @@ std::string label_text(const LabelTable& labels, bool known, std::optional<std::
 // file's colour and opacity (`said`, or null) or a colour that reaches halfway to its neighbours.
 // `range`: numbers of the file that show; all if empty.
 AutomaticTransfer label_transfer(const ValueDistribution& values, const VolumeLabels* said,
-                                 const std::optional<ValueRange>& range = {}) {
-    const LabelTable labels(values, said);
+                                 const std::optional<ValueRange>& range,
+                                 const std::optional<double>& around = {}) {
+    const LabelTable labels(values, said, around);
     const std::optional<std::size_t> background = labels.background();
     const double shown = background ? 1 - labels.share(*background) : 1;
     std::vector<TransferKnot> points;
@@ -224,7 +230,9 @@ AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers,
     if (values.distinct() < 2) return one_value(values.empty() ? 0 : values.lowest());
     if (whole_numbers && values.distinct() <= most_labels && values.distinct() > 2 &&
         (subject.field == nullptr || subject.field->lies_in_pieces()))
-        return label_transfer(values, nullptr);
+        return label_transfer(
+            values, nullptr, {},
+            subject.field == nullptr ? std::nullopt : subject.field->corner_value());
     const ChosenSurfaces chosen = choose_surfaces(padding, whole_numbers, subject);
     return chosen.points.empty() ? one_value(values.lowest()) : with_surfaces(chosen);
 }

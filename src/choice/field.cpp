@@ -272,6 +272,24 @@ bool VolumeField::lies_in_pieces() const {
     return verdict == LabelSigns::Verdict::labels || verdict == LabelSigns::Verdict::scattered;
 }
 
+std::optional<double> VolumeField::corner_value() const {
+    const std::array<std::int64_t, 3>& size = volume_.grid().size;
+    std::optional<double> found;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        SampleBox one{{0, 0, 0}, {1, 1, 1}};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if ((corner >> axis & 1) != 0) one.first[axis] = size[axis] - 1;
+        const double value = with_sample_type(volume_.type(), [&](auto zero) {
+            return visit_window<decltype(zero)>(volume_, one, [&](const auto& window) {
+                return static_cast<double>(window.at(one.first[0], one.first[1], one.first[2]));
+            });
+        });
+        if (found && *found != value) return std::nullopt;
+        found = value;
+    }
+    return found;
+}
+
 const VolumeLabels* VolumeField::labels() const {
     static const VolumeLabels nothing;
     if (!whole_numbers() || volume_.grid().lookup == VolumeLookup::linear) return nullptr;

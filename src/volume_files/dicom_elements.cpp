@@ -35,6 +35,7 @@ constexpr DicomTag as_text[] = {tags::media_class,
                                 tags::slice_spacing,
                                 tags::trigger_time,
                                 tags::imager_pixel_spacing,
+                                tags::slice_locations,
                                 tags::scanned_pixel_spacing,
                                 tags::series,
                                 tags::acquisition_number,
@@ -69,8 +70,9 @@ constexpr DicomTag as_fd[] = {
     tags::real_world_intercept, tags::real_world_slope, tags::region_width,  tags::region_height};
 
 // The kept elements that may be longer than others.
-constexpr DicomTag long_elements[] = {tags::csa_header,   tags::lut_data,   tags::frame_offsets,
-                                      tags::slice_vector, tags::time_slots, tags::energy_windows};
+constexpr DicomTag long_elements[] = {tags::slice_locations, tags::csa_header,   tags::lut_data,
+                                      tags::frame_offsets,   tags::slice_vector, tags::time_slots,
+                                      tags::energy_windows};
 
 // Sequences whose items are kept, and those inside them that hold what is used. In data sets with
 // implicit VRs only their tags tell that they are sequences.

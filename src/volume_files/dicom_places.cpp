@@ -200,7 +200,8 @@ void place_by_offsets(const DicomElements& elements, DicomImage& image) {
 }
 
 // Places frames that lack positions of their own: by offsets, one at another's place if they are
-// times, else at equal distances from the first in their order or that of SliceVector.
+// times, at their SliceLocationVector, else at equal distances from the first in their order or
+// that of SliceVector.
 void spread_frames(const DicomElements& elements, DicomImage& image) {
     if (!image.frames[0].position) {
         image.missing.emplace_back("ImagePositionPatient (0, 0, 0 is taken)");
@@ -212,15 +213,21 @@ void spread_frames(const DicomElements& elements, DicomImage& image) {
     const DicomTag pointer = frame_pointer(elements, 0);
     const bool times = pointer == dicom_tag::frame_time || pointer == dicom_tag::frame_time_vector;
     const auto slices = elements.numbers(dicom_tag::slice_vector);
-    set_frame_spacing(elements, image, !times);
-    image.place_words = "SpacingBetweenSlices";
-    const glm::dvec3 step =
-        glm::cross(first.along_row, first.along_column) * (times ? 0 : image.frame_spacing);
+    const auto locations = elements.numbers(dicom_tag::slice_locations);
+    const bool has_locations = !times && std::ssize(locations) == image.frame_count;
+    const glm::dvec3 normal = glm::cross(first.along_row, first.along_column);
+    set_frame_spacing(elements, image, !times && !has_locations);
+    image.place_words = has_locations ? "SliceLocationVector" : "SpacingBetweenSlices";
+    const glm::dvec3 step = normal * (times ? 0 : image.frame_spacing);
     for (DicomFrame& frame : image.frames) {
         double place = static_cast<double>(frame.index);
         if (std::ssize(slices) == image.frame_count)
             place = slices[static_cast<std::size_t>(frame.index)] - 1;
         frame.position = *first.position + step * place;
+        if (has_locations) {
+            const double location = locations[static_cast<std::size_t>(frame.index)];
+            frame.position = *first.position + normal * (location - locations[0]);
+        }
     }
 }
 

@@ -210,6 +210,16 @@ class AxisReader {
         described.firsts.assign(firsts.rbegin(), firsts.rend());
     }
 
+    // Names the axes of images of Thermo Fisher's Velox (.emd), whose frames come last.
+    void read_velox() {
+        if (!parents_[0].starts_with("/Data/Image/") || !files_.has(parents_[0] + "/Metadata"))
+            return;
+        name_axes({"y", "x", "t"});
+        say("{}: Velox keeps the sizes of pixels in Metadata, which is not read: they are taken as "
+            "1, \"spacing\" in the volume gives others",
+            array_.name());
+    }
+
     // Says how the axes of a matrix lie, which MATLAB and Octave write with the first one fastest.
     void say_if_transposed() const {
         const bool is_matlab = H5Aexists(array_.id(), "MATLAB_class") > 0;
@@ -291,6 +301,7 @@ DescribedArray describe_hdf5(Hdf5Files& files, const Hdf5Array& array, const Hdf
     reader.read_names();
     reader.read_coordinates_beside();
     reader.read_geometry();
+    reader.read_velox();
     reader.read_lengths();
     reader.read_openpmd();
     return reader.described;

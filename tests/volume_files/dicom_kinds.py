@@ -310,6 +310,15 @@ class Kinds:
         padded[2].add_new(0x00280121, "SS", -101)
         self.save("dcm_padding_range", padded)
         self.case("dcm_padding_range", array - 500, says=[f"found it {int((array[2] < 400).sum())} times"])
+        order = [2, 0, 1, 3, 4, 5, 6, 7]
+        placed = self.frames(array[order])
+        placed.FrameIncrementPointer = 0x00182005
+        placed.SliceLocationVector = [30 + 2.5 * z for z in order]
+        self.save("dcm_locations", [placed])
+        self.case("dcm_locations", array, origin=(*ORIGIN[:2], ORIGIN[2] - 5))
+        placed.SliceLocationVector[3] += 2
+        self.save("dcm_locations_uneven", [placed])
+        self.bad("dcm_locations_uneven", "SliceLocationVector: found", "not equally spaced")
         real = self.whole(dtype="<f4")
         data = self.frames(np.zeros(real.shape, "<u2"))
         data.BitsAllocated = 32

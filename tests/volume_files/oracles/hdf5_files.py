@@ -261,6 +261,11 @@ def geometries(h5py, cases, write, add, bad):
         group["_SIMPL_GEOMETRY/ORIGIN"] = np.array([1, 2, 3], "f4")
         group["CellData/Ids"] = array[..., None]
     add("grains.dream3d", array, diagonal(.9, .7, 2.5), (1.45, 2.35, 4.25))
+    with h5py.File(cases.path("velox.emd"), "w") as file:
+        group = file.create_group("Data/Image/0123abcd")
+        group["Data"], group["Metadata"] = array, np.zeros((300, array.shape[2]), "u1")
+    add("velox.emd", array[None, :, :, 0], warnings=["time 0 of", "Velox keeps the sizes of pixels"])
+    add("velox.emd", array[None, :, :, 3], time=3)
     with h5py.File(cases.path("octave.h5"), "w") as file:
         file["v/value"] = array
         file["v"].attrs["OCTAVE_NEW_FORMAT"] = np.uint8(1)
