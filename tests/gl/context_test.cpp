@@ -49,6 +49,7 @@ TEST_P(AnyContext, DescribesItself) {
     }
 }
 
+// Sets LAMINA_RAYS during its lifetime.
 class RaysVariable {
   public:
     explicit RaysVariable(const char* words) { setenv("LAMINA_RAYS", words, 1); }

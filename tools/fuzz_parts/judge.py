@@ -310,7 +310,7 @@ class Judge:
                     and plan["thickness"] == "exact"
                     and self.render["project"]["coloring"] in ("preintegrated", "analytic")
                     and self.render["project"].get("order") in (None, "exact")
-                    and drawn.stats["counts"]["pairs_in_wrong_order"] == 0)
+                    and drawn.stats["counts"].get("pairs_in_wrong_order", 0) == 0)
         if not promised:
             return
         error = numpy.abs(drawn.picture - traced).max(2)

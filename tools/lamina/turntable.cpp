@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "turntable.h"
 
+#include <algorithm>
+#include <deque>
+#include <future>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
 
 #include "base/client.h"
 #include "base/content_hash.h"
@@ -37,6 +42,37 @@ std::string scene_text_of(const std::string& scene, const Camera& camera) {
     nlohmann::json document = parse_json(scene);
     document["camera"] = camera_json(camera);
     return json_text(document, 2);
+}
+
+// Returns the number of pictures that are written at once, each by a thread, while the next one is
+// drawn: one thread takes longer to encode a picture than many cores or a GPU take to draw it. The
+// pictures take at most 256 MiB, or there is one.
+std::size_t most_written_at_once(const Scene& scene) {
+    const double bytes = 4.0 * sizeof(double) * scene.width * scene.height;
+    const double threads = std::clamp(std::thread::hardware_concurrency(), 1u, 16u);
+    return static_cast<std::size_t>(std::clamp(0x1p28 / bytes, 1.0, threads));
+}
+
+// A picture that another thread writes.
+struct PictureBeingWritten {
+    std::string name;
+    std::future<std::int64_t> clamped;  // its clamped pixels, once it is there
+};
+
+// Begins to write the picture that the pipeline drew last.
+PictureBeingWritten begin_to_write(std::string name, PictureFile file, Pipeline& pipeline,
+                                   Image picture, const PictureAttributes& attributes) {
+    const auto begin = [&](auto image) {
+        return std::async(std::launch::async, [file = std::move(file), image = std::move(image),
+                                               attributes, look = pipeline.scene().png_look(),
+                                               space = pipeline.scene().color_space,
+                                               client = ClientScope::current()]() mutable {
+            const ClientScope scope(std::move(client));
+            return static_cast<std::int64_t>(file.write(image, look, attributes, space));
+        });
+    };
+    const bool traced = pipeline.scene().method == Method::trace;
+    return {std::move(name), traced ? begin(pipeline.traced()->image) : begin(std::move(picture))};
 }
 
 }  // namespace
@@ -103,13 +139,24 @@ void Turntable::draw_missing(const std::vector<int>& views, SeriesRecord& record
     const std::string scene_text = attributes.at("scene");
     const Camera own = *pipeline.scene().camera;
     std::int64_t clamped = 0;
-    Image image;
-    for (const int view : views) {
+    std::deque<PictureBeingWritten> writing;
+    const std::size_t most = most_written_at_once(pipeline.scene());
+    const auto finish_but = [&](std::size_t count) {
+        while (writing.size() > count) {
+            PictureBeingWritten first = std::move(writing.front());
+            writing.pop_front();
+            clamped += first.clamped.get();
+            record.add(first.name);
+            progress.advance();
+        }
+    };
+    const auto draw_view = [&](int view) {
         check_interrupt();
         const std::string name = names_.name(view);
         const Camera camera = camera_of(own, view);
-        PictureFile picture(path_of(name), format_);
+        PictureFile file(path_of(name), format_);
         pipeline.set_camera(camera);
+        Image image;
         if (view == views.front())
             pipeline.draw(image);
         else
@@ -117,11 +164,20 @@ void Turntable::draw_missing(const std::vector<int>& views, SeriesRecord& record
         run.add(pipeline.statistics());
         attributes["scene"] = scene_text_of(scene_text, camera);
         attributes["renderer"] = run.picture.renderer;
-        clamped += write_picture(picture, pipeline, image, attributes);
-        if (view == views.front()) run.first_picture_ms = scene_.watch.milliseconds();
-        record.add(name);
-        progress.advance();
+        finish_but(most - 1);
+        writing.push_back(
+            begin_to_write(name, std::move(file), pipeline, std::move(image), attributes));
+        if (view != views.front()) return;
+        finish_but(0);
+        run.first_picture_ms = scene_.watch.milliseconds();
+    };
+    try {
+        for (const int view : views) draw_view(view);
+    } catch (const Interrupted&) {
+        finish_but(0);
+        throw;
     }
+    finish_but(0);
     run.picture.counts["clamped_pixels"] = clamped;
 }
 
