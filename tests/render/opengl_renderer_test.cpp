@@ -140,15 +140,55 @@ TEST_F(OpenGlSession, NewCamerasUploadAndCompileNothing) {
         frames.draw();
         frames.set_camera(orbit(40));
         frames.draw();
-        const int renderers = frames.counts().renderers;
+        const int renderers = frames.counts().renderers, rays = frames.counts().rays;
+        EXPECT_EQ(rays, 1);
         for (int degrees = 50; degrees < 400; degrees += 30) {
             const Done before;
             frames.set_camera(orbit(degrees));
             const Image drawn = frames.draw_picture();
             EXPECT_EQ(Done(), before);
             EXPECT_EQ(frames.counts().renderers, renderers);
+            EXPECT_EQ(frames.counts().rays, rays);
             expect_fresh(frames, data, drawn, std::to_string(degrees));
         }
+    }
+}
+
+// Rays through the whole fog end early, and those along an edge do not. What the first view with
+// the box in sight chose stays until the data or the transfer function change.
+TEST_F(OpenGlSession, NewCamerasKeepTheChoicesOfRays) {
+    const auto data = blobs();
+    const TransferFunction fog =
+        TransferFunction::linear({test::knot(0, {1, 1, 1}, 20), test::knot(255, {1, 0, 0}, 20)});
+    const Camera whole = orbit(0);
+    Camera edge = orbit(0), away = orbit(0);
+    edge.projection = Projection::orthographic;
+    edge.height = .05;
+    edge.center = {.05, .5, .05};
+    edge.eye = edge.center + glm::dvec3{-2, 0, 2};
+    away.center = 2. * away.eye;
+    for (const bool ends : {false, true}) {
+        Scene scene = volume_scene();
+        scene.slice.classification = Classification::exact;
+        scene.transfer_function = fog;
+        scene.camera = away;
+        SceneRenderer frames(scene, data, capabilities());
+        frames.draw();
+        frames.set_camera(ends ? whole : edge);
+        frames.draw();
+        EXPECT_EQ(frames.counts().rays, 2);
+        for (const Camera& camera : {edge, whole, away, edge}) {
+            frames.set_camera(camera);
+            frames.draw();
+            EXPECT_EQ(frames.plan().slice.ends_early(),
+                      ends && !frames.plan().slice.nothing_visible);
+        }
+        EXPECT_EQ(frames.counts().rays, 2);
+        frames.set_transfer_function(fog);
+        frames.set_camera(whole);
+        frames.draw();
+        EXPECT_EQ(frames.counts().rays, 3);
+        EXPECT_TRUE(frames.plan().slice.ends_early());
     }
 }
 
