@@ -232,10 +232,7 @@ void GlTetCodes::composite(const TetProjector& projector,
             picture.bind(picture_binding, 0, height_);
             dispatch();
             // While one round of lists is drawn, the next one is made.
-            gl::Fence& drawn = drawn_[rounds_++ % drawn_.size()];
-            drawn.wait();
-            drawn.set();
-            gl::api().Flush();
+            drawn_[rounds_++ % drawn_.size()].end_step();
             check_interrupt();
             begin += fitting;
         }
