@@ -47,8 +47,14 @@ int rounds_of(const ProjectPlan& plan, int intervals) {
     return std::max(most / (2 + intervals), least);
 }
 
-// Largest number of tiles in one dispatch: 64 MiB of rays between two dispatches.
-constexpr std::size_t most_tiles = 16384;
+constexpr std::size_t bytes_of_tile = 64 * EntryTiles::size * EntryTiles::size;  // of its rays
+
+// Returns the largest number of tiles in one dispatch: as many as OpenGL allows, since a GPU waits
+// for the next dispatch; in software 64 MiB of rays.
+std::size_t most_tiles_of(const Capabilities& capabilities) {
+    const auto fitting = static_cast<std::size_t>(capabilities.max_storage_bytes) / bytes_of_tile;
+    return std::min<std::size_t>(capabilities.software ? 16384 : 65535, fitting);
+}
 
 constexpr unsigned mesh_unit = 4;  // and those after it; behind those of GlProjectTables
 
@@ -137,10 +143,10 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
       place_steps_(steps_to(mesh.mesh.bounds().max - center_)),
       tables_(transfer_function_, plan_),
       program_("projection/walk.comp", walk_defines(plan_, tables_, mesh.mesh.has_copies())),
-      picture_(PixelPacking::floats, width, height) {
-    constexpr std::size_t ray_bytes = 64, pixels_of_tile = EntryTiles::size * EntryTiles::size;
-    rays_ = gl::Buffer(std::min(most_tiles, EntryTiles::count(width) * EntryTiles::count(height)) *
-                       pixels_of_tile * ray_bytes);
+      picture_(PixelPacking::floats, width, height),
+      most_tiles_(most_tiles_of(gl::current_context()->capabilities())) {
+    const std::size_t tiles = EntryTiles::count(width) * EntryTiles::count(height);
+    rays_ = gl::Buffer(std::min(most_tiles_, tiles) * bytes_of_tile);
     unfinished_ = gl::Buffer(sizeof(std::uint32_t));
     const Stage uploading("upload mesh");
     upload_tets();
@@ -300,8 +306,8 @@ void GlMeshWalk::draw(const View& view, Progress* progress) {
     timeline_.begin("draw");
     picture_.clear();
     if (!entries_.tiles.empty()) set_view(view);
-    for (std::size_t first = 0; first < entries_.tiles.size(); first += most_tiles) {
-        const std::size_t count = std::min(most_tiles, entries_.tiles.size() - first);
+    for (std::size_t first = 0; first < entries_.tiles.size(); first += most_tiles_) {
+        const std::size_t count = std::min(most_tiles_, entries_.tiles.size() - first);
         program_.set("first_tile", static_cast<int>(first));
         std::uint32_t unfinished = 1;
         for (int begins = 1; unfinished > 0; begins = 0) {
@@ -313,7 +319,7 @@ void GlMeshWalk::draw(const View& view, Progress* progress) {
         }
     }
     timeline_.end();
-    gl::api().Finish();
+    if (entries_.tiles.empty()) gl::api().Finish();  // else the last dispatch was waited for
     gl::check("walking through a mesh");
     if (progress != nullptr) progress->advance();
     drawing.count("tets", static_cast<double>(tets_drawn_));

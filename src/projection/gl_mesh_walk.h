@@ -65,6 +65,7 @@ class GlMeshWalk : public ProjectRenderer {
     GlProjectTables tables_;
     gl::Program program_;
     GlPixels picture_;
+    std::size_t most_tiles_;      // in one dispatch
     std::vector<TetFace> faces_;  // by which rays enter
     bool around_hidden_ = false;  // rays leave the mesh at tets that show nothing
     EntryTiles entries_;
