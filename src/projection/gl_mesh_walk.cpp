@@ -117,21 +117,22 @@ PixelArea EntryTiles::area_of(const Triangle& face, const WindowView& window) {
 }
 
 void EntryTiles::list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view,
-                      std::size_t most, const std::string& renderer) {
+                      std::uint32_t most, const std::string& renderer) {
     const WindowView window(view);
     areas_.resize(open_faces.size());
     parallel_for(std::ssize(open_faces), 1024, [&](std::int64_t i) {
         const auto face = static_cast<std::size_t>(i);
         areas_[face] = area_of(mesh.corners(open_faces[face]), window);
     });
-    if (const std::size_t places = count(areas_); places > most) {
+    const std::size_t places = TileLists::list(
+        areas_, view.width, view.height, most,
+        [](std::size_t face, int, int) { return static_cast<std::uint32_t>(face); });
+    if (places > most) {
         fail(
             "mesh: found {} places where rays may enter by a face, in tiles of an image of {} x {} "
             "pixels, expected at most {}, which {} allows; use fewer pixels or --context cpu",
             places, view.width, view.height, most, renderer);
     }
-    TileLists::list(areas_, view.width, view.height,
-                    [](std::size_t face, int, int) { return static_cast<std::uint32_t>(face); });
 }
 
 GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_function,
@@ -299,7 +300,8 @@ void GlMeshWalk::draw(const View& view, Progress* progress) {
     Stage listing("geometry");
     const Capabilities& capabilities = gl::current_context()->capabilities();
     entries_.list(mesh_.mesh, faces_, view,
-                  static_cast<std::size_t>(capabilities.max_buffer_texels), capabilities.renderer);
+                  static_cast<std::uint32_t>(capabilities.max_buffer_texels),
+                  capabilities.renderer);
     upload_tiles();
     list_ms_ = listing.end();
     Stage drawing("draw");

@@ -21,7 +21,7 @@ struct EntryTiles : TileLists<std::uint32_t> {
     // Lists the faces, by index into `open_faces`, for a view. Throws Error if there are more than
     // `most` entries, which the OpenGL of this name allows.
     void list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view,
-              std::size_t most, const std::string& renderer);
+              std::uint32_t most, const std::string& renderer);
 
   private:
     // Bounds the pixels whose rays may enter by a face: those around its corners, or all if it
