@@ -33,12 +33,15 @@ namespace {
 
 constexpr std::uint32_t hidden_tet = 0x80000000u;
 
-// Returns the number of rounds of a ray in one dispatch. Software rasterisers end all loops of an
+constexpr int most_rounds = 65000;
+
+// Returns the number of rounds of a ray in the first dispatch. On GPUs, which have no bound, their
+// time decides on those of the next ones (WalkPace). Software rasterisers end all loops of an
 // invocation together after 65535 rounds, also those that integrate a segment, within a round. They
 // draw up to 16 rays at once: where these enter the mesh at different times, the rounds add up.
 int rounds_of(const ProjectPlan& plan, int intervals) {
-    if (!gl::current_context()->capabilities().software) return 65000;
-    constexpr int most = 65000 / 16, least = 16;
+    if (!gl::current_context()->capabilities().software) return WalkPace::first_rounds;
+    constexpr int most = most_rounds / 16, least = 16;
     // Pieces of a lit segment are 1 / 256 of it or longer, and each may be shortened some times.
     if (plan.lighting) return least;
     // Three look-ups, and two searches for the interval of a scalar.
@@ -116,6 +119,13 @@ PixelArea EntryTiles::area_of(const Triangle& face, const WindowView& window) {
                          everywhere);
 }
 
+void WalkPace::took(double ms, bool too_few) {
+    if (ms > most_ms)
+        rounds_ = std::max(rounds_ / 4, least_rounds);
+    else if (too_few && ms < most_ms / 8)
+        rounds_ = std::min(4 * rounds_, most_rounds);
+}
+
 void EntryTiles::list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view,
                       std::uint32_t most, const std::string& renderer) {
     const WindowView window(view);
@@ -145,7 +155,8 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
       tables_(transfer_function_, plan_),
       program_("projection/walk.comp", walk_defines(plan_, tables_, mesh.mesh.has_copies())),
       picture_(PixelPacking::floats, width, height),
-      most_tiles_(most_tiles_of(gl::current_context()->capabilities())) {
+      most_tiles_(most_tiles_of(gl::current_context()->capabilities())),
+      pace_(rounds_of(plan_, tables_.intervals())) {
     const std::size_t tiles = EntryTiles::count(width) * EntryTiles::count(height);
     rays_ = gl::Buffer(std::min(most_tiles_, tiles) * bytes_of_tile);
     unfinished_ = gl::Buffer(sizeof(std::uint32_t));
@@ -273,7 +284,6 @@ void GlMeshWalk::set_view(const View& view) {
     program_.set("pixel_size", in_units.pixel);
     program_.set("ray_perturbation", ray_perturbation(view));
     program_.set("near_depth", plan_.near_depth - center.z);
-    program_.set("rounds", rounds_of(plan_, tables_.intervals()));
     program_.set("place_steps", place_steps_ * plan_.unit);
     if (plan_.lighting) set_lit_view(*plan_.lighting, gradients_, plan_.most_bend, program_);
     unsigned unit = mesh_unit;
@@ -313,10 +323,14 @@ void GlMeshWalk::draw(const View& view, Progress* progress) {
         program_.set("first_tile", static_cast<int>(first));
         std::uint32_t unfinished = 1;
         for (int begins = 1; unfinished > 0; begins = 0) {
+            const Stopwatch watch;
             program_.set("begins", begins);
+            program_.set("rounds", pace_.rounds());
             unfinished_.clear();
             program_.dispatch(static_cast<int>(count));
             unfinished_.read(std::span(&unfinished, 1));
+            if (!capabilities.software)
+                pace_.took(watch.milliseconds(), begins == 1 && unfinished > 0);
             check_interrupt();
         }
     }
