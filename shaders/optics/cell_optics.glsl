@@ -25,6 +25,12 @@ Interval interval_at(int number) {
     return Interval(place.x, ends.y, place.y, ends.x, left, right - left);
 }
 
+#ifdef SKIPS_HIDDEN_PARTS
+// Tells, by one texel of the interval of its lowest scalar, whether nothing of a part shows. At the
+// scalar `shown_beyond` itself the next interval may show, if there is a step.
+bool is_hidden(int interval, vec2 range) { return range.y < interval_texel(interval, 3).b; }
+#endif
+
 // A part of a ray whose scalar stays in one interval. `share` holds the coefficients of the share
 // as a cubic of t, which is 0 at the part's front and 1 at its back. `extinction` is the extinction
 // at share 0 times the part's length; `change` is what this product gains from share 0 to share 1.

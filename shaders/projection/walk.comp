@@ -59,6 +59,9 @@ uniform double near_depth;  // from the mesh's center
 // Opacity above which nothing behind can be seen: it hides all but 1e-6 of it, or 2.6e-4 / 255.
 const float opaque = 0.999999;
 
+// Ends a ray that makes no progress in a tet, which would stop a GPU: many more pieces than any has.
+const int least_left = -(1 << 20);
+
 // Finds the first entry behind the last one, and counts the entries. Returns the tet, or no_tet; also if it ends early,
 // after `left` rounds.
 uint find_entry(uvec2 list, inout Ray ray, inout int left, inout Front front) {
@@ -99,13 +102,17 @@ void walk(inout uint tet, inout Front front, inout int left, inout vec4 color) {
 #endif
     while (true) {
         --left;
-        if (color.a > opaque) return;
+        if (color.a > opaque || left < least_left) {
+            tet = no_tet;
+            return;
+        }
         if (through) {
             tet = passage.behind;
             if (tet == no_tet || left <= 0) return;
             uint combined = texelFetch(tets, int(tet)).x;
+            uvec4 behind = texelFetch(neighbors, int(tet));
             shown = (combined & hidden_tet) == 0u;
-            passage = pass_through(tet, combined & ~hidden_tet, passage.from, front);
+            passage = pass_through(tet, combined & ~hidden_tet, behind, passage.from, front);
 #if SOURCE == SOURCE_PARTS && defined(COPIES)
             take_interval(find_interval(clamp(passage.from.scalar, 0.0, 1.0)));
 #endif

@@ -195,10 +195,11 @@ struct Passage {
 #endif
 };
 
-// Moves the ray through a tet: makes `front` the face by which it leaves. `entered`: where it enters. The fourth
+// Moves the ray through a tet: makes `front` the face by which it leaves. `behind`: the texel of `neighbors`, which is
+// fetched beside `tets` and not when the corners are there. `entered`: where the ray enters. The fourth
 // corner, top, takes the place of the corner that is left behind: the ray leaves between the two corners for which the
 // side of the edge to the top turns from right to left.
-Passage pass_through(uint tet, uint combined, Crossing entered, inout Front front) {
+Passage pass_through(uint tet, uint combined, uvec4 behind, Crossing entered, inout Front front) {
     Passage passage;
     Corner top = see(combined ^ front.a.point ^ front.b.point ^ front.c.point);
     uvec4 corners_of_tet = uvec4(front.a.point, front.b.point, front.c.point, top.point);
@@ -233,7 +234,7 @@ Passage pass_through(uint tet, uint combined, Crossing entered, inout Front fron
         front.b = top;
         front.areas.xy = dvec2(to_top.x, -to_top.z);
     }
-    passage.behind = entry_of(left_behind, corners_of_tet, texelFetch(neighbors, int(tet)));
+    passage.behind = entry_of(left_behind, corners_of_tet, behind);
     passage.to = crossing_of(front);
     passage.to.depth = max(passage.to.depth, entered.depth);
     return passage;

@@ -63,7 +63,11 @@ void add_cut_part(CellScalar scalar, float world_length, CellGradient gradient, 
 // Adds a part whose scalar is a cubic, by one rule if possible. `way`: its place in the cell.
 void add_part(CellScalar scalar, float world_length, LitStep way, inout RaySum sum) {
     vec2 range = scalar_range(scalar);
-    Interval interval = interval_at(find_interval(range.x));
+    int lowest = find_interval(range.x);
+#ifdef SKIPS_HIDDEN_PARTS
+    if (is_hidden(lowest, range)) return;
+#endif
+    Interval interval = interval_at(lowest);
     LinearPart part = linear_part(interval, scalar.cubic, world_length);
     bool crosses = range.y > interval.right_end;
     float depth = crosses ? 0.0 : depth_of(part);

@@ -97,10 +97,8 @@ void GlTree::evaluate(int level, const SampleSpan& node, Progress* progress) {
     clear(level);
     if (shape_.is_leaf(level, node)) {
         draw_leaf(level, node, static_cast<double>(shape_.samples()) / node.count);
-        if (progress != nullptr) {
-            gl::api().Finish();
-            progress->advance();
-        }
+        leaf_.end_step();
+        if (progress != nullptr) progress->advance();
         check_interrupt();
         return;
     }

@@ -10,6 +10,7 @@
 #include "gl/api.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
+#include "gl/timeline.h"
 #include "lamina/image.h"
 #include "plan/compositing_plan.h"
 
@@ -75,6 +76,7 @@ class GlTree {
     void evaluate(int level, const SampleSpan& node, Progress* progress);
 
     std::map<std::pair<int, int>, gl::Texture> swizzles_;  // by samples of child and node
+    gl::Fence leaf_;                                       // behind the last one
 };
 
 // Definitions of shaders/slicing/swizzle.frag.

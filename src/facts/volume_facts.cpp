@@ -255,7 +255,8 @@ void measure_view(const Scene& scene, Facts& facts) {
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks) {
     Facts facts = measure_data(scene, volume, bricks);
     measure_view(scene, facts);
-    measure_rays(scene, volume, facts);
+    facts.ray_shares = measure_ray_shares(scene, volume, facts);
+    facts.scalar_rays = measure_scalar_rays(scene, volume, facts);
     return facts;
 }
 
@@ -291,10 +292,8 @@ Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks&
     return facts;
 }
 
-void measure_rays(const Scene& scene, const Volume& volume, Facts& facts) {
-    facts.ray_shares = measure_ray_shares(scene, volume, facts);
-    facts.scalar_rays = {};
-    if (may_need_table(scene, facts)) facts.scalar_rays = sample_rays(scene, volume, facts);
+ScalarRays measure_scalar_rays(const Scene& scene, const Volume& volume, const Facts& facts) {
+    return may_need_table(scene, facts) ? sample_rays(scene, volume, facts) : ScalarRays();
 }
 
 void check_finite(const Scene& scene, const Grid& grid, const MinMaxBricks& bricks) {

@@ -118,10 +118,12 @@ struct Facts {
 // Measures all facts. Throws Error as check_finite() does.
 Facts measure(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 
-// Parts of measure(): volume and transfer function; the view without rays; shares and scalars.
+// Parts of measure(): volume and transfer function; the view without rays; what its rays meet, and
+// the scalars along them. The latter two take grid, bricks and depths from `facts`.
 Facts measure_data(const Scene& scene, const Volume& volume, const MinMaxBricks& bricks);
 void measure_view(const Scene& scene, Facts& facts);
-void measure_rays(const Scene& scene, const Volume& volume, Facts& facts);
+RayShares measure_ray_shares(const Scene& scene, const Volume& volume, const Facts& facts);
+ScalarRays measure_scalar_rays(const Scene& scene, const Volume& volume, const Facts& facts);
 
 // Throws Error if no sample is finite, or if some are not while the scene's `nan` is "error".
 void check_finite(const Scene& scene, const Grid& grid, const MinMaxBricks& bricks);
@@ -132,9 +134,6 @@ inline constexpr double hidden_share = 1.0 / 1024;
 
 // Returns the optical depth behind which a channel changes by at most hidden_share of max_error.
 double opaque_depth(double max_error, double max_color);
-
-// Measures RayShares; grid, bricks and depths come from `facts`.
-RayShares measure_ray_shares(const Scene& scene, const Volume& volume, const Facts& facts);
 
 // Largest number of sampled rays, and of scalars on a ray.
 struct RaySampling {

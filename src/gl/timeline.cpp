@@ -28,6 +28,12 @@ void Fence::wait() {
     sync_ = nullptr;
 }
 
+void Fence::end_step() {
+    wait();
+    set();
+    api().Flush();
+}
+
 namespace {
 
 GLenum target_of(Query::Kind kind) {

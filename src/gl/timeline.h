@@ -20,6 +20,9 @@ class Fence {
     void set();  // places the fence at the current point
     // Waits until all commands before the fence are complete; returns at once if it was not set.
     void wait();
+    // Ends a step of a frame: waits for the fence, which ended the step before, and places it here.
+    // So OpenGL has one step to work on while the next one is prepared, and at most two to end.
+    void end_step();
 
   private:
     void* sync_ = nullptr;

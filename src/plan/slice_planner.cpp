@@ -383,7 +383,7 @@ struct SlicePlanner {
             facts.max_extinction * (seen.far - seen.near) * facts.max_length_per_depth;
         const RayShares& shares = facts.ray_shares;
         const bool ends = omissions.leave_out(
-            deepest > depth && shares.box_before_opaque < shares.box, "early_termination",
+            shares.box_before_opaque < shares.box, "early_termination",
             fmt::format("rays may get {:.3g} deep and end at an optical depth of {:.3g}: what lies "
                         "behind changes no channel by more than {:.2g} / 255{}",
                         deepest, depth, hidden_error(),

@@ -33,12 +33,15 @@ namespace {
 
 constexpr std::uint32_t hidden_tet = 0x80000000u;
 
-// Returns the number of rounds of a ray in one dispatch. Software rasterisers end all loops of an
+constexpr int most_rounds = 65000;
+
+// Returns the number of rounds of a ray in the first dispatch. On GPUs, which have no bound, their
+// time decides on those of the next ones (WalkPace). Software rasterisers end all loops of an
 // invocation together after 65535 rounds, also those that integrate a segment, within a round. They
 // draw up to 16 rays at once: where these enter the mesh at different times, the rounds add up.
 int rounds_of(const ProjectPlan& plan, int intervals) {
-    if (!gl::current_context()->capabilities().software) return 65000;
-    constexpr int most = 65000 / 16, least = 16;
+    if (!gl::current_context()->capabilities().software) return WalkPace::first_rounds;
+    constexpr int most = most_rounds / 16, least = 16;
     // Pieces of a lit segment are 1 / 256 of it or longer, and each may be shortened some times.
     if (plan.lighting) return least;
     // Three look-ups, and two searches for the interval of a scalar.
@@ -47,8 +50,14 @@ int rounds_of(const ProjectPlan& plan, int intervals) {
     return std::max(most / (2 + intervals), least);
 }
 
-// Largest number of tiles in one dispatch: 64 MiB of rays between two dispatches.
-constexpr std::size_t most_tiles = 16384;
+constexpr std::size_t bytes_of_tile = 64 * EntryTiles::size * EntryTiles::size;  // of its rays
+
+// Returns the largest number of tiles in one dispatch: as many as OpenGL allows, since a GPU waits
+// for the next dispatch; in software 64 MiB of rays.
+std::size_t most_tiles_of(const Capabilities& capabilities) {
+    const auto fitting = static_cast<std::size_t>(capabilities.max_storage_bytes) / bytes_of_tile;
+    return std::min<std::size_t>(capabilities.software ? 16384 : 65535, fitting);
+}
 
 constexpr unsigned mesh_unit = 4;  // and those after it; behind those of GlProjectTables
 
@@ -110,22 +119,30 @@ PixelArea EntryTiles::area_of(const Triangle& face, const WindowView& window) {
                          everywhere);
 }
 
+void WalkPace::took(double ms, bool too_few) {
+    if (ms > most_ms)
+        rounds_ = std::max(rounds_ / 4, least_rounds);
+    else if (too_few && ms < most_ms / 8)
+        rounds_ = std::min(4 * rounds_, most_rounds);
+}
+
 void EntryTiles::list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view,
-                      std::size_t most, const std::string& renderer) {
+                      std::uint32_t most, const std::string& renderer) {
     const WindowView window(view);
     areas_.resize(open_faces.size());
     parallel_for(std::ssize(open_faces), 1024, [&](std::int64_t i) {
         const auto face = static_cast<std::size_t>(i);
         areas_[face] = area_of(mesh.corners(open_faces[face]), window);
     });
-    if (const std::size_t places = count(areas_); places > most) {
+    const std::size_t places = TileLists::list(
+        areas_, view.width, view.height, most,
+        [](std::size_t face, int, int) { return static_cast<std::uint32_t>(face); });
+    if (places > most) {
         fail(
             "mesh: found {} places where rays may enter by a face, in tiles of an image of {} x {} "
             "pixels, expected at most {}, which {} allows; use fewer pixels or --context cpu",
             places, view.width, view.height, most, renderer);
     }
-    TileLists::list(areas_, view.width, view.height,
-                    [](std::size_t face, int, int) { return static_cast<std::uint32_t>(face); });
 }
 
 GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_function,
@@ -137,10 +154,11 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
       place_steps_(steps_to(mesh.mesh.bounds().max - center_)),
       tables_(transfer_function_, plan_),
       program_("projection/walk.comp", walk_defines(plan_, tables_, mesh.mesh.has_copies())),
-      picture_(PixelPacking::floats, width, height) {
-    constexpr std::size_t ray_bytes = 64, pixels_of_tile = EntryTiles::size * EntryTiles::size;
-    rays_ = gl::Buffer(std::min(most_tiles, EntryTiles::count(width) * EntryTiles::count(height)) *
-                       pixels_of_tile * ray_bytes);
+      picture_(PixelPacking::floats, width, height),
+      most_tiles_(most_tiles_of(gl::current_context()->capabilities())),
+      pace_(rounds_of(plan_, tables_.intervals())) {
+    const std::size_t tiles = EntryTiles::count(width) * EntryTiles::count(height);
+    rays_ = gl::Buffer(std::min(most_tiles_, tiles) * bytes_of_tile);
     unfinished_ = gl::Buffer(sizeof(std::uint32_t));
     const Stage uploading("upload mesh");
     upload_tets();
@@ -266,7 +284,6 @@ void GlMeshWalk::set_view(const View& view) {
     program_.set("pixel_size", in_units.pixel);
     program_.set("ray_perturbation", ray_perturbation(view));
     program_.set("near_depth", plan_.near_depth - center.z);
-    program_.set("rounds", rounds_of(plan_, tables_.intervals()));
     program_.set("place_steps", place_steps_ * plan_.unit);
     if (plan_.lighting) set_lit_view(*plan_.lighting, gradients_, plan_.most_bend, program_);
     unsigned unit = mesh_unit;
@@ -293,27 +310,32 @@ void GlMeshWalk::draw(const View& view, Progress* progress) {
     Stage listing("geometry");
     const Capabilities& capabilities = gl::current_context()->capabilities();
     entries_.list(mesh_.mesh, faces_, view,
-                  static_cast<std::size_t>(capabilities.max_buffer_texels), capabilities.renderer);
+                  static_cast<std::uint32_t>(capabilities.max_buffer_texels),
+                  capabilities.renderer);
     upload_tiles();
     list_ms_ = listing.end();
     Stage drawing("draw");
     timeline_.begin("draw");
     picture_.clear();
     if (!entries_.tiles.empty()) set_view(view);
-    for (std::size_t first = 0; first < entries_.tiles.size(); first += most_tiles) {
-        const std::size_t count = std::min(most_tiles, entries_.tiles.size() - first);
+    for (std::size_t first = 0; first < entries_.tiles.size(); first += most_tiles_) {
+        const std::size_t count = std::min(most_tiles_, entries_.tiles.size() - first);
         program_.set("first_tile", static_cast<int>(first));
         std::uint32_t unfinished = 1;
         for (int begins = 1; unfinished > 0; begins = 0) {
+            const Stopwatch watch;
             program_.set("begins", begins);
+            program_.set("rounds", pace_.rounds());
             unfinished_.clear();
             program_.dispatch(static_cast<int>(count));
             unfinished_.read(std::span(&unfinished, 1));
+            if (!capabilities.software)
+                pace_.took(watch.milliseconds(), begins == 1 && unfinished > 0);
             check_interrupt();
         }
     }
     timeline_.end();
-    gl::api().Finish();
+    if (entries_.tiles.empty()) gl::api().Finish();  // else the last dispatch was waited for
     gl::check("walking through a mesh");
     if (progress != nullptr) progress->advance();
     drawing.count("tets", static_cast<double>(tets_drawn_));

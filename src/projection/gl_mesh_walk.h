@@ -21,7 +21,7 @@ struct EntryTiles : TileLists<std::uint32_t> {
     // Lists the faces, by index into `open_faces`, for a view. Throws Error if there are more than
     // `most` entries, which the OpenGL of this name allows.
     void list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view,
-              std::size_t most, const std::string& renderer);
+              std::uint32_t most, const std::string& renderer);
 
   private:
     // Bounds the pixels whose rays may enter by a face: those around its corners, or all if it
@@ -29,6 +29,24 @@ struct EntryTiles : TileLists<std::uint32_t> {
     static PixelArea area_of(const Triangle& face, const WindowView& window);
 
     std::vector<PixelArea> areas_;  // of each open face
+};
+
+// Chooses the rounds of a ray in one dispatch on a GPU by the time of the dispatches before:
+// drivers end programs that take seconds, and a desktop stands still until a dispatch is done.
+class WalkPace {
+  public:
+    static constexpr double most_ms = 100;  // that a dispatch should take
+    static constexpr int first_rounds = 1024, least_rounds = 16;
+
+    explicit WalkPace(int rounds) : rounds_(rounds) {}
+    int rounds() const { return rounds_; }
+    // A dispatch with rounds() took so long. `too_few`: it was the first of its rays in a frame,
+    // and left some of them to the next one. Of later ones, which draw few rays, the time says
+    // nothing.
+    void took(double ms, bool too_few);
+
+  private:
+    int rounds_;
 };
 
 // Returns the definitions of projection/walk.comp. `copies`: TetMesh::has_copies().
@@ -65,6 +83,8 @@ class GlMeshWalk : public ProjectRenderer {
     GlProjectTables tables_;
     gl::Program program_;
     GlPixels picture_;
+    std::size_t most_tiles_;  // in one dispatch
+    WalkPace pace_;
     std::vector<TetFace> faces_;  // by which rays enter
     bool around_hidden_ = false;  // rays leave the mesh at tets that show nothing
     EntryTiles entries_;

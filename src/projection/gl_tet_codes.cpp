@@ -232,10 +232,7 @@ void GlTetCodes::composite(const TetProjector& projector,
             picture.bind(picture_binding, 0, height_);
             dispatch();
             // While one round of lists is drawn, the next one is made.
-            gl::Fence& drawn = drawn_[rounds_++ % drawn_.size()];
-            drawn.wait();
-            drawn.set();
-            gl::api().Flush();
+            drawn_[rounds_++ % drawn_.size()].end_step();
             check_interrupt();
             begin += fitting;
         }
@@ -289,16 +286,16 @@ void GlTetCodes::upload_records(std::size_t count) {
 
 void GlTetCodes::list(std::size_t first, std::size_t count) {
     const TetOutline everywhere;
-    lists_.list(std::span(areas_).subspan(first, count), width_, height_,
-                [&](std::size_t item, int column, int row) {
-                    const std::size_t number = first + item;
-                    const TilePixelBits pixels = pixels_in_tile(
-                        areas_[number], outlines_.empty() ? everywhere : outlines_[number], column,
-                        row);
-                    return CodeEntry{static_cast<std::uint32_t>(pixels),
-                                     static_cast<std::uint32_t>(pixels >> 32),
-                                     static_cast<std::uint32_t>(number)};
-                });
+    lists_.list(
+        std::span(areas_).subspan(first, count), width_, height_,
+        static_cast<std::uint32_t>(most_entries_), [&](std::size_t item, int column, int row) {
+            const std::size_t number = first + item;
+            const TilePixelBits pixels = pixels_in_tile(
+                areas_[number], outlines_.empty() ? everywhere : outlines_[number], column, row);
+            return CodeEntry{static_cast<std::uint32_t>(pixels),
+                             static_cast<std::uint32_t>(pixels >> 32),
+                             static_cast<std::uint32_t>(number)};
+        });
     if (lists_.tiles.empty()) return;
     // Longest lists first, so that those which a dispatch draws are the first ones.
     std::ranges::sort(lists_.tiles, std::ranges::greater(),

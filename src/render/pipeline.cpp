@@ -114,8 +114,12 @@ Pipeline::Pipeline(Scene scene, SceneData data, PipelineOptions options)
 
 template <typename Work>
 decltype(auto) Pipeline::in_context(const Work& work) {
-    const auto current = context_ ? context_->make_current() : nullptr;
+    const auto current = make_current();
     return work();
+}
+
+std::unique_ptr<gl::CurrentContext> Pipeline::make_current() const {
+    return context_ ? context_->make_current() : nullptr;
 }
 
 // The context must be current when a renderer of OpenGL is destroyed.

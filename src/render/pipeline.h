@@ -118,6 +118,9 @@ class Pipeline {
     void warn_of_plan();  // warns about the plan and the data
 
     void set_up();
+    // Makes the pipeline's context of OpenGL current while the result lives, so that the calls
+    // between find it so: a GPU's driver flushes with each change. Returns null if it has none.
+    std::unique_ptr<gl::CurrentContext> make_current() const;
     // Draws a frame with the scene's method, without reading it, so that it can be timed.
     void draw_frame();
     // Draws a picture, and warns about data, plan and picture.

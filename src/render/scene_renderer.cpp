@@ -84,7 +84,9 @@ class Drawing {
     virtual void measure_data(const Scene& scene) = 0;
     // Measures the facts that depend on the view. `planned`: the plan of an earlier view, or null
     // for the first view. Facts that this plan has settled for all views are not measured again.
-    virtual void measure_view(const Scene& scene, const Plan* planned) = 0;
+    // Returns whether rays of the view were sampled.
+    virtual bool measure_view(const Scene& scene, const Capabilities& capabilities,
+                              const Plan* planned) = 0;
 
     // Draws trial pictures if an automatic choice needs them; with `many_frames` also if they may
     // find settings that make later frames faster.
@@ -128,18 +130,21 @@ class SliceDrawing : public Drawing {
         shares_.reset();
     }
 
-    // If the scene of a later view has its table already, no rays are needed to choose one.
-    void measure_view(const Scene& scene, const Plan* planned) override {
+    // If the scene of a later view has its table already, no rays are needed to choose one. OpenGL
+    // keeps the shares of the first view whose rays meet the box: a GPU would wait for others, and
+    // a choice that changed with them would take other programs while the camera turns.
+    bool measure_view(const Scene& scene, const Capabilities& capabilities,
+                      const Plan* planned) override {
         lamina::measure_view(scene, facts_);
-        if (planned != nullptr && scene.slice.table.is_given()) {
-            facts_.ray_shares = measure_ray_shares(scene, data_->volume, facts_);
-            facts_.scalar_rays = {};
-        } else {
-            measure_rays(scene, data_->volume, facts_);
-        }
+        const bool kept = planned != nullptr && !capabilities.cpu && facts_.ray_shares.box > 0;
+        if (!kept) facts_.ray_shares = measure_ray_shares(scene, data_->volume, facts_);
+        facts_.scalar_rays = {};
+        if (planned == nullptr || !scene.slice.table.is_given())
+            facts_.scalar_rays = measure_scalar_rays(scene, data_->volume, facts_);
         // Shares stay when the view changes, so that each renderer keeps its part of the data.
         if (share_.count > 1 && !shares_)
             shares_.emplace(scene, facts_, data_->bricks, !data_->volume.in_memory(), share_.count);
+        return !kept || !facts_.scalar_rays.rays.empty();
     }
 
     void make_trials(const Scene& scene, const Capabilities& capabilities,
@@ -268,7 +273,8 @@ class ProjectDrawing : public Drawing {
     // Trial rays choose between a table whose nodes lie on the transfer function's points, and
     // integration that is right everywhere. If an earlier plan did not choose the table, there is
     // nothing left to choose, and later views measure no rays.
-    void measure_view(const Scene& scene, const Plan* planned) override {
+    bool measure_view(const Scene& scene, const Capabilities& /*capabilities*/,
+                      const Plan* planned) override {
         lamina::measure_view(scene, *mesh_, facts_);
         const bool settled = planned != nullptr && !planned->project.nothing_visible &&
                              planned->project.source != SegmentSource::cut_table;
@@ -278,6 +284,7 @@ class ProjectDrawing : public Drawing {
         } else {
             measure_rays(scene, *mesh_, facts_);
         }
+        return !settled;
     }
 
     Plan plan(const Scene& scene, const Capabilities& capabilities, const OmissionSwitch& omissions,
@@ -451,7 +458,7 @@ void SceneRenderer::measure() {
         view_measured_ = planned_ = false;
     }
     if (!view_measured_) {
-        drawing_->measure_view(scene, plan_ ? &*plan_ : nullptr);
+        if (drawing_->measure_view(scene, capabilities_, plan_ ? &*plan_ : nullptr)) ++counts_.rays;
         ++counts_.views;
         view_measured_ = true;
     }

@@ -90,7 +90,9 @@ class Drawing;
 // or a plan is next asked for, it repeats only the steps that the changes make necessary:
 //
 //   camera              the facts of the view and the plan; the renderer stays as long as the plan
-//                       needs no other: no bricks, tables, uploads or programs
+//                       needs no other: no bricks, tables, uploads or programs. Rays are sampled
+//                       for the view by the cpu engine (of volumes), and if a table may be needed
+//                       that no plan has chosen; OpenGL keeps what rays of the first view met
 //   size                as camera, and a renderer of that size, which takes over everything that
 //                       the size leaves: the volume's copy or textures, programs, a mesh's order
 //   transfer function   also the facts of the data, and a renderer with its tables, which takes
@@ -162,6 +164,7 @@ class SceneRenderer : public Frames {
     // Numbers of times that each stage was done, for tests.
     struct Counts {
         int data = 0, views = 0, trials = 0, plans = 0, renderers = 0;
+        int rays = 0;  // views whose rays were sampled
         friend bool operator==(const Counts&, const Counts&) = default;
     };
     const Counts& counts() const { return counts_; }

@@ -91,10 +91,8 @@ void GlCodeSlabs::draw_slabs(const SampleSpan& span, const GlPixels& picture, Pr
         picture.bind(picture_binding, band.first_row, band.rows);
         program_.set("output_begin", -band.first_row * picture.row_words());
         for (const GlMarch::Part& part : parts) march_.draw(part, band, program_);
-        if (progress != nullptr) {
-            gl::api().Finish();
-            progress->advance(band.rows);
-        }
+        drawn_.end_step();
+        if (progress != nullptr) progress->advance(band.rows);
     });
 }
 

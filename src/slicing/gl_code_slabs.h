@@ -5,6 +5,7 @@
 #include "executors/gl_code_tree.h"
 #include "executors/gl_pixels.h"
 #include "gl/texture.h"
+#include "gl/timeline.h"
 #include "plan/capabilities.h"
 #include "slicing/gl_march.h"
 
@@ -44,6 +45,7 @@ class GlCodeSlabs : public GlMarchedPicture, private CodeLeaves {
     GlMarch march_;
     GlPixels picture_;
     RowPace pace_;
+    gl::Fence drawn_;                 // behind the last band
     std::optional<GlCodeTree> tree_;  // if the plan has one
 };
 

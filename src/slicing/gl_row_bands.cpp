@@ -4,6 +4,7 @@
 #include <glad/gl.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/client.h"
 #include "base/profile.h"
@@ -51,6 +52,7 @@ int RowPace::next(int left) const {
 }
 
 void RowPace::took(int rows, double ms) {
+    if (!std::exchange(begun_, true)) return;
     last_rows_ = rows;
     ms_per_row_ = std::max(ms_per_row_, ms / rows);
 }

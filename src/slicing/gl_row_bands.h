@@ -34,6 +34,7 @@ class RowPace {
     // Tells whether the rows must be waited for, and took() be called with the time they took: in
     // the first frame, which begins with few rows.
     bool wants_time() const { return timed_ && !known_; }
+    // The first of these times is ignored: the program's first use may have cost more.
     void took(int rows, double ms);
     // Must be called once a frame is done.
     void frame_took(int rows, double ms);
@@ -42,6 +43,7 @@ class RowPace {
   private:
     int band_rows_;
     bool timed_, known_ = false;
+    bool begun_ = false;     // the first band of all is drawn
     int last_rows_ = 0;      // in the first frame
     double ms_per_row_ = 0;  // of the slowest rows so far
 };

@@ -228,10 +228,8 @@ void GlShaderTree::draw_leaf(const SampleSpan& leaf, int level, int place) {
         }
         march_.draw(part, band_, program);
     }
-    if (progress_ != nullptr) {
-        gl::api().Finish();
-        progress_->advance(band_.rows);
-    }
+    drawn_.end_step();
+    if (progress_ != nullptr) progress_->advance(band_.rows);
     check_interrupt();
 }
 

@@ -10,6 +10,7 @@
 #include "executors/gl_pixels.h"
 #include "gl/api.h"
 #include "gl/program.h"
+#include "gl/timeline.h"
 #include "plan/capabilities.h"
 #include "slicing/gl_march.h"
 #include "slicing/gl_slab_source.h"
@@ -67,6 +68,7 @@ class GlShaderTree : public GlMarchedPicture {
     std::optional<gl::Buffer> kept_;  // what rays have passed between two dispatches of a leaf
     // The following belong to the frame.
     Progress* progress_ = nullptr;
+    gl::Fence drawn_;  // behind the last leaf
     RowBand band_;
 };
 

@@ -76,6 +76,8 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
         if (steps) defines.set("STEPS", 1);
         if (plan.float_texture) defines.set("FLOAT_SAMPLES", 1);
         if (plan.words) defines.set("SAMPLE_WORDS", 1);
+        // Software, which gets batches, computes both sides of a branch.
+        if (plan.batches == 1) defines.set("SKIPS_HIDDEN_PARTS", 1);
     }
     if (!plan.preintegrates()) return defines;
     defines.set("PREINTEGRATED", 1);

@@ -3,6 +3,8 @@
 // with the tracer's: those of Engine::opengl.
 #include "projection/gl_mesh_walk.h"
 
+#include <algorithm>
+
 #include "projection_fixture.h"
 #include "support/split_box.h"
 
@@ -17,6 +19,20 @@ const auto constant_field = [](const glm::dvec3&) { return 0.0; };
 SceneMesh placed(MeshData data, const glm::dvec3& from, const glm::dvec3& step) {
     for (glm::dvec3& point : data.points) point = from + step * point;
     return scene_mesh(std::move(data));
+}
+
+TEST(WalkPace, HoldsWholeRaysUnlessTheyTakeLong) {
+    constexpr int needed = 20000;  // rounds of a ray
+    for (const double ms_per_round : {1e-4, .01, 1.}) {
+        WalkPace pace(WalkPace::first_rounds);
+        double ms = 0;
+        for (int frame = 0; frame < 8; ++frame) {
+            ms = ms_per_round * std::min(pace.rounds(), needed);
+            pace.took(ms, pace.rounds() < needed);
+        }
+        EXPECT_LE(ms, WalkPace::most_ms) << ms_per_round;
+        EXPECT_EQ(pace.rounds() >= needed, ms_per_round == 1e-4);
+    }
 }
 
 class MeshWalk : public gl::EveryContextTest {

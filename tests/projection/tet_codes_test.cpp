@@ -4,7 +4,11 @@
 #include "projection/gl_tet_codes.h"
 
 #include <cmath>
+#include <random>
+#include <tuple>
 
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 #include "base/error.h"
 #include "projection/tile_lists.h"
 #include "projection_fixture.h"
@@ -19,18 +23,54 @@ using Lists = TileLists<std::uint32_t>;
 const std::vector<PixelArea> some_areas{
     {7, 16, 8, 23}, {0, -1, 0, -1}, {8, 15, 0, 7}, {3, 8, 7, 8}};
 
-TEST(TileLists, CountTheEntriesThatTheyList) {
+std::size_t list(Lists& lists, std::span<const PixelArea> areas, int width, int height,
+                 std::uint32_t most) {
+    return lists.list(areas, width, height, most,
+                      [](std::size_t item, int, int) { return static_cast<std::uint32_t>(item); });
+}
+
+TEST(TileLists, ListNoMoreThanTheirBound) {
     Lists lists;
-    lists.list(some_areas, 24, 24,
-               [](std::size_t item, int, int) { return static_cast<std::uint32_t>(item); });
+    EXPECT_EQ(list(lists, some_areas, 24, 24, 11), 11);
     EXPECT_EQ(lists.entries.size(), 6 + 0 + 1 + 4);
-    EXPECT_EQ(Lists::count(some_areas), lists.entries.size());
+    EXPECT_EQ(list(lists, some_areas, 24, 24, 10), 11);
+    EXPECT_TRUE(lists.tiles.empty());
+}
+
+// Parts of the items are listed side by side, on as many cores as there are.
+TEST(TileLists, AreTheSameOnAnyNumberOfCores) {
+    constexpr int width = 203, height = 157;
+    std::mt19937 random(1);
+    const auto ends = [&](int pixels) {
+        const auto a = static_cast<int>(random() % static_cast<unsigned>(pixels));
+        return std::pair(a, std::min(a + static_cast<int>(random() % 20), pixels) - 1);
+    };
+    std::vector<PixelArea> areas(70000);
+    for (PixelArea& area : areas) {
+        std::tie(area.first_column, area.last_column) = ends(width);
+        std::tie(area.first_row, area.last_row) = ends(height);
+    }
+    std::vector<std::uint32_t> expected;
+    for (int row = 0; row < height; row += Lists::size) {
+        for (int column = 0; column < width; column += Lists::size) {
+            const PixelArea tile{column, column + Lists::size - 1, row, row + Lists::size - 1};
+            for (std::uint32_t item = 0; item < areas.size(); ++item) {
+                if (!areas[item].empty() && !common_pixels(areas[item], tile).empty())
+                    expected.push_back(item);
+            }
+        }
+    }
+    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, 16);
+    for (const int cores : {1, 3, 16}) {
+        Lists lists;
+        tbb::task_arena(cores).execute([&] { list(lists, areas, width, height, 1 << 30); });
+        EXPECT_EQ(lists.entries, expected) << cores;
+    }
 }
 
 TEST(TileLists, CountBeyond32Bits) {
     // 2^20 tiles each, 2^13 times.
     const std::vector<PixelArea> areas(1 << 13, PixelArea{0, 8191, 0, 8191});
-    EXPECT_EQ(Lists::count(areas), std::size_t{1} << 33);
     EXPECT_EQ(Lists::fitting(areas, GlTetCodes::most_entries), 4);
 }
 

@@ -149,7 +149,8 @@ TEST_F(OpenGlSession, NewCamerasUploadPolygonsAloneAndCompileNothing) {
         frames.draw();
         frames.set_camera(orbit(40));
         frames.draw();
-        const int renderers = frames.counts().renderers;
+        const int renderers = frames.counts().renderers, rays = frames.counts().rays;
+        EXPECT_EQ(rays, 1);
         const SlicePlan& plan = frames.plan().slice;
         const bool rasterized = plan.has_tree(NodeArithmetic::fixed);
         for (int degrees = 50; degrees < 400; degrees += 30) {
@@ -158,8 +159,47 @@ TEST_F(OpenGlSession, NewCamerasUploadPolygonsAloneAndCompileNothing) {
             const Image drawn = frames.draw_picture();
             expect_little(before, rasterized ? plan.slabs * polygon_bytes : 0);
             EXPECT_EQ(frames.counts().renderers, renderers);
+            EXPECT_EQ(frames.counts().rays, rays);
             expect_fresh(frames, data, drawn, std::to_string(degrees));
         }
+    }
+}
+
+// Rays through the whole fog end early, and those along an edge do not. What the first view with
+// the box in sight chose stays until the data or the transfer function change.
+TEST_F(OpenGlSession, NewCamerasKeepTheChoicesOfRays) {
+    const auto data = blobs();
+    const TransferFunction fog =
+        TransferFunction::linear({test::knot(0, {1, 1, 1}, 20), test::knot(255, {1, 0, 0}, 20)});
+    const Camera whole = orbit(0);
+    Camera edge = orbit(0), away = orbit(0);
+    edge.projection = Projection::orthographic;
+    edge.height = .05;
+    edge.center = {.05, .5, .05};
+    edge.eye = edge.center + glm::dvec3{-2, 0, 2};
+    away.center = 2. * away.eye;
+    for (const bool ends : {false, true}) {
+        Scene scene = volume_scene();
+        scene.slice.classification = Classification::exact;
+        scene.transfer_function = fog;
+        scene.camera = away;
+        SceneRenderer frames(scene, data, capabilities());
+        frames.draw();
+        frames.set_camera(ends ? whole : edge);
+        frames.draw();
+        EXPECT_EQ(frames.counts().rays, 2);
+        for (const Camera& camera : {edge, whole, away, edge}) {
+            frames.set_camera(camera);
+            frames.draw();
+            EXPECT_EQ(frames.plan().slice.ends_early(),
+                      ends && !frames.plan().slice.nothing_visible);
+        }
+        EXPECT_EQ(frames.counts().rays, 2);
+        frames.set_transfer_function(fog);
+        frames.set_camera(whole);
+        frames.draw();
+        EXPECT_EQ(frames.counts().rays, 3);
+        EXPECT_TRUE(frames.plan().slice.ends_early());
     }
 }
 

@@ -46,6 +46,23 @@ TEST(Pipeline, StretchesAColormapOverTheChannelThatIsDrawn) {
     }
 }
 
+TEST(Pipeline, KeepsItsContextCurrentWhenAsked) {
+    Pipeline pipeline(read_scene(minimal_scene(), "s"), {}, {.context = ContextChoice::osmesa});
+    EXPECT_EQ(pipeline.make_current(), nullptr);  // it opens one for its first frame
+    Image alone, held;
+    pipeline.draw(alone);
+    EXPECT_EQ(gl::current_context(), nullptr);
+    {
+        const auto current = pipeline.make_current();
+        gl::Context* const context = gl::current_context();
+        EXPECT_NE(context, nullptr);
+        pipeline.draw(held);
+        EXPECT_EQ(gl::current_context(), context);
+    }
+    EXPECT_EQ(gl::current_context(), nullptr);
+    EXPECT_EQ(held.rgba, alone.rgba);
+}
+
 TEST(Pipeline, IntegratesVoxelsExactlyAndUnlit) {
     nlohmann::json document = minimal_scene();
     document["volume"]["lookup"] = "nearest";

@@ -108,13 +108,14 @@ TEST(SceneRenderer, RepeatsOnlyWhatAChangeNeeds) {
     scene.transfer_function = smooth(1);
     SceneRenderer frames(scene, blobs(), cpu_capabilities());
     frames.draw();
-    SceneRenderer::Counts expected{1, 1, 1, 1, 1};
+    SceneRenderer::Counts expected{1, 1, 1, 1, 1, 1};
     EXPECT_EQ(frames.counts(), expected);
     frames.draw();
     EXPECT_EQ(frames.counts(), expected);
     frames.set_camera(orbit(40));
     frames.draw();
     ++expected.views;
+    ++expected.rays;
     ++expected.plans;
     const int renderers = frames.counts().renderers;
     EXPECT_LE(renderers, 2);  // one new table, if any, covers longer segments in all views
@@ -124,6 +125,7 @@ TEST(SceneRenderer, RepeatsOnlyWhatAChangeNeeds) {
         frames.set_camera(orbit(degrees));
         frames.draw();
         ++expected.views;
+        ++expected.rays;
         ++expected.plans;
         EXPECT_EQ(frames.counts(), expected) << degrees;
     }
@@ -131,12 +133,14 @@ TEST(SceneRenderer, RepeatsOnlyWhatAChangeNeeds) {
     frames.draw();
     ++expected.data;
     ++expected.views;
+    ++expected.rays;
     ++expected.plans;
     ++expected.renderers;
     EXPECT_EQ(frames.counts(), expected);
     frames.choose_again();
     frames.draw();
     ++expected.views;
+    ++expected.rays;
     ++expected.trials;
     ++expected.plans;
     EXPECT_LE(frames.counts().renderers, expected.renderers + 1);

@@ -350,5 +350,42 @@ TEST_P(ExactTest, LeavesOfATreeGiveTheNumberOfSlabs) {
     EXPECT_EQ(make_plan(scene, facts, capabilities(), {}).slice.slabs, 64);
 }
 
+using ShadersOfGpus = SlicingTest;
+
+// Only GPUs leave parts of which nothing shows. These scalars lie in front of, between and behind
+// intervals that show, which begin with steps and with slopes, and some lie on the steps.
+TEST_F(ShadersOfGpus, DrawWhatThoseOfSoftwareDraw) {
+    const Volume volume = noise<std::uint8_t>({14, 12, 13}, Centering::cell, 8);
+    for (const bool one_color : {false, true}) {
+        for (const bool lit : {false, true}) {
+            const glm::dvec3 other = one_color ? glm::dvec3{1, .2, .1} : glm::dvec3{.1, .9, .4};
+            Scene scene =
+                exact_scene(TransferFunction::linear(
+                                {knot(2, {1, .2, .1}, 0), knot(2, {1, .2, .1}, .4),
+                                 knot(3, other, .3), knot(3, other, 0), knot(4.5, other, 0),
+                                 knot(5, other, 2), knot(5.5, {1, .2, .1}, 0)}),
+                            Projection::perspective);
+            if (lit) {
+                Lighting lighting;
+                lighting.smallest_gradient = .01;
+                scene.lighting = lighting;
+            }
+            look_from(volume, {.4, -.7, .9}, 1.2, scene);
+            const Facts facts = measure(scene, volume, measure_bricks(volume));
+            SlicePlan plan = make_plan(scene, facts, capabilities(), {}).slice;
+            const auto drawn = [&](int batches) {
+                plan.batches = batches;
+                GlSliceRenderer renderer(volume, *scene.transfer_function, facts, plan,
+                                         capabilities(), scene.width, scene.height);
+                renderer.draw(View(*scene.camera, scene.width, scene.height));
+                return renderer.read();
+            };
+            const Image software = drawn(64);
+            EXPECT_GT(software.rgba[3 + 4 * (22 * 60 + 30)], 0);
+            EXPECT_EQ(drawn(1).rgba, software.rgba) << one_color << lit;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lamina

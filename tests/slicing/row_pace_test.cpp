@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace lamina {
@@ -42,6 +43,13 @@ TEST(RowPace, FastFramesAreOneDispatchAfterTheFirst) {
     const auto fast = [](int) { return .005; };
     EXPECT_GT(times_of_frame(pace, 600, fast).size(), 3u);
     EXPECT_EQ(times_of_frame(pace, 600, fast).size(), 1u);
+}
+
+TEST(RowPace, AProgramsFirstUseMakesNoFrameSlow) {
+    RowPace pace(600, true);
+    bool used = false;
+    times_of_frame(pace, 600, [&](int) { return std::exchange(used, true) ? .005 : 300.0; });
+    EXPECT_LE(times_of_frame(pace, 600, [](int) { return .005; }).size(), 2u);
 }
 
 // Rows of the middle third take 10 ms each, the others nothing. A dispatch grows by at most a

@@ -64,7 +64,7 @@ def by_context(lamina, scene, size, context, quick):
     warm_up = [] if quick else ["--warm-up", WARM_UP[context]]
     frames = lamina.frames(scene.path, [*arguments, *warm_up], 2 if quick else TIMED[context])
     profile = lamina.folder / "profile.json"
-    lamina.frames(scene.path, [*arguments, "--profile", profile], 2)
+    lamina.frames(scene.path, [*arguments, *warm_up, "--profile", profile], 2)
     return {"frame_ms": frames["frame_ms"], "first_picture_ms": frames["first_picture_ms"],
             "drawn_by": drawn_by(frames["plan"]), "counts": frames["counts"], "stages_ms": stages(profile)}
 

@@ -53,6 +53,7 @@ class SinglePicture : public RenderOutput {
   private:
     // Times frames_ frames, between which the camera turns, after warm_up_ seconds of others.
     void time_frames(Pipeline& pipeline, RunStatistics& run) const {
+        const auto current = pipeline.make_current();
         run.frames_ms.clear();  // the scene's own frame was the warm-up
         const Camera own = *pipeline.scene().camera;
         int turns = 0;
