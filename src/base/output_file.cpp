@@ -123,7 +123,10 @@ AtomicFile::AtomicFile(std::filesystem::path path) : OutputFile(without_links(st
     }
     if (path_.filename().string().size() > NAME_MAX) give_up(ENAMETOOLONG);
     if (belongs_to_another(path_)) give_up(EPERM);
-    if (const auto folder = path_.parent_path(); !folder.empty() && !is_there(folder)) {
+    // Other reasons why a folder cannot be seen are those why the file cannot be opened.
+    if (const auto folder = path_.parent_path();
+        !folder.empty() &&
+        std::filesystem::status(folder, ignored).type() == std::filesystem::file_type::not_found) {
         throw WriteError(fmt::format("{}: cannot write: there is no folder {}", path_.string(),
                                      folder.string()));
     }

@@ -164,16 +164,18 @@ std::vector<glm::dvec3> kept_of(const std::vector<glm::dvec3>& pairs, const Half
     return kept;
 }
 
-// Calls visit(begin, end) for the samples of the row (y, z) along x of whose voxels the planes keep
-// a part, if there are any.
+// Calls visit(begin, end) for the samples of the row (y, z) along x that have a say in what the
+// planes keep, if there are any: a sample reaches over its voxel or, if the field is interpolated,
+// to its neighbours.
 template <typename Sample, typename Visit>
 void visit_kept(const SampleWindow<Sample>& window, const Grid& grid, std::int64_t y,
                 std::int64_t z, std::span<const IndexPlane> planes, const Visit& visit) {
-    // Voxels of the row between which no plane cuts a whole one away: the distance of the farthest
-    // corner is linear along the row.
+    const double samples = grid.lookup == VolumeLookup::nearest ? 0.5 : 1;
+    // Samples of the row between which no plane cuts all away that one reaches: the distance of the
+    // farthest corner is linear along the row.
     double first = 0, last = static_cast<double>(grid.size[0] - 1);
     for (const IndexPlane& plane : planes) {
-        const glm::dvec3 n = plane.normal, reach = 0.5 * glm::abs(n);
+        const glm::dvec3 n = plane.normal, reach = samples * glm::abs(n);
         const double at = plane.distance(glm::dvec3(0, y, z)) + reach.x + reach.y + reach.z;
         if (n.x > 0) first = std::max(first, std::floor(-at / n.x) + 1);
         if (n.x < 0) last = std::min(last, std::ceil(-at / n.x) - 1);
@@ -208,7 +210,7 @@ std::vector<char> kept_codes(const Volume& volume, std::span<const IndexPlane> p
     return kept;
 }
 
-// Returns the range of the finite samples of whose voxels the planes keep a part.
+// Returns the range of the finite samples that have a say in what the planes keep.
 template <typename Sample>
 ValueRange kept_samples(const Volume& volume, std::span<const IndexPlane> planes) {
     const Grid& grid = volume.grid();

@@ -378,15 +378,12 @@ struct SlicePlanner {
         constexpr double never = std::numeric_limits<double>::infinity();
         if (error_bound && *error_bound + hidden_error() > scene.max_error) return never;
         const double depth = opaque_depth(scene.max_error, max_color);
-        const DepthRange& seen = facts.occupied_depth;
-        const double deepest =
-            facts.max_extinction * (seen.far - seen.near) * facts.max_length_per_depth;
         const RayShares& shares = facts.ray_shares;
         const bool ends = omissions.leave_out(
             shares.box_before_opaque < shares.box, "early_termination",
-            fmt::format("rays may get {:.3g} deep and end at an optical depth of {:.3g}: what lies "
-                        "behind changes no channel by more than {:.2g} / 255{}",
-                        deepest, depth, hidden_error(),
+            fmt::format("rays end at an optical depth of {:.3g}: what lies behind changes no "
+                        "channel by more than {:.2g} / 255{}",
+                        depth, hidden_error(),
                         is_fixed_point(*scene.target) ? " before it becomes a code" : ""));
         return ends ? depth : never;
     }

@@ -60,8 +60,10 @@ struct TileLists {
                      const MakeEntry& entry) {
         const std::size_t columns = count(width), places = columns * count(height);
         const auto items = std::ssize(areas);
-        const std::int64_t parts = std::clamp<std::int64_t>(
-            items / items_for_a_core, 1, tbb::this_task_arena::max_concurrency());
+        // Each part counts in all places, so it has as many items at least.
+        const auto least = std::max(items_for_a_core, static_cast<std::int64_t>(places));
+        const std::int64_t parts =
+            std::clamp<std::int64_t>(items / least, 1, tbb::this_task_arena::max_concurrency());
         // Visits each tile of each item, and the place in ends_ of the tile in the item's part.
         const auto for_each_tile = [&](const auto& visit) {
             parallel_for(parts, 1, [&](std::int64_t part) {

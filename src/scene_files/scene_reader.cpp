@@ -18,14 +18,29 @@
 #include "volume_files/volume_file.h"
 
 namespace lamina {
+namespace {
+
+// Tells whether a file begins as an object of JSON does. Samples without a header may begin with a
+// brace, but hardly with a key's quote behind it, and text alone.
+bool begins_as_object(std::string_view beginning) {
+    constexpr std::string_view blanks = " \t\r\n";
+    const std::size_t brace = beginning.find_first_not_of(blanks);
+    if (brace == beginning.npos || beginning[brace] != '{') return false;
+    const std::size_t next = beginning.find_first_not_of(blanks, brace + 1);
+    return next != beginning.npos && (beginning[next] == '"' || beginning[next] == '}') &&
+           std::ranges::all_of(beginning, [&](char letter) {
+               return static_cast<unsigned char>(letter) >= ' ' ||
+                      blanks.find(letter) != blanks.npos;
+           });
+}
+
+}  // namespace
 
 FileKind kind_of_file(const std::filesystem::path& file, const std::filesystem::path& only_below) {
     const OnlyBelowScope scope(only_below);
     expect_no_foreign_mesh(file);
-    // No other format begins with a brace, so a scene may have any name.
     const std::string beginning = file_beginning(file, 64);
-    const std::size_t first = beginning.find_first_not_of(" \t\r\n");
-    if (first != std::string::npos && beginning[first] == '{') return FileKind::scene;
+    if (begins_as_object(beginning)) return FileKind::scene;  // whatever its name
     if (is_volume_file(file)) return FileKind::volume;
     if (is_mesh_file(file)) return FileKind::mesh;
     expect_no_folder(file);

@@ -52,25 +52,28 @@ void set_orientation(const DicomElements& elements, DicomImage& image, DicomFram
     frame.along_column = glm::normalize(column);
 }
 
-// Returns the distances of rows and of columns in mm that the regions of an ultrasound image have
-// in common; zeros if they have none, or other units than cm: PS3.3, C.8.5.5.
+// Returns the distances of rows and of columns in mm that those regions of an ultrasound image have
+// in common whose units are cm along both (PS3.3, C.8.5.5): others are curves over time, such as of
+// Doppler. Returns zeros if there is none, or if they differ.
 std::pair<double, double> ultrasound_spacing(const DicomElements& elements) {
-    constexpr double centimetres = 3;  // PhysicalUnitsXDirection
+    constexpr double centimetres = 3;  // PhysicalUnitsXDirection and PhysicalUnitsYDirection
     const auto regions = elements.items.find(dicom_tag::regions);
     const std::size_t count = regions == elements.items.end() ? 0 : regions->second.size();
-    std::pair<double, double> found{0, 0};
+    std::optional<std::pair<double, double>> found;
     for (std::size_t i = 0; i < count; ++i) {
         const auto number = [&](DicomTag tag) {
             const auto numbers = elements.numbers_in(dicom_tag::regions, i, tag);
             return numbers.size() == 1 ? std::abs(numbers[0]) : 0;
         };
-        if (number(dicom_tag::region_units) != centimetres) return {};
+        if (number(dicom_tag::region_units_x) != centimetres ||
+            number(dicom_tag::region_units_y) != centimetres)
+            continue;
         const std::pair own{10 * number(dicom_tag::region_height),
                             10 * number(dicom_tag::region_width)};
-        if (i > 0 && own != found) return {};
+        if (found && own != *found) return {};
         found = own;
     }
-    return found;
+    return found.value_or(std::pair(0.0, 0.0));
 }
 
 void set_spacing(const DicomElements& elements, DicomImage& image, DicomFrame& frame) {
@@ -215,6 +218,9 @@ void spread_frames(const DicomElements& elements, DicomImage& image) {
     const auto slices = elements.numbers(dicom_tag::slice_vector);
     const auto locations = elements.numbers(dicom_tag::slice_locations);
     const bool has_locations = !times && std::ssize(locations) == image.frame_count;
+    if (!times && !has_locations && !locations.empty())
+        image.missing.push_back(fmt::format("SliceLocationVector with {} places ({} are not used)",
+                                            image.frame_count, locations.size()));
     const glm::dvec3 normal = glm::cross(first.along_row, first.along_column);
     set_frame_spacing(elements, image, !times && !has_locations);
     image.place_words = has_locations ? "SliceLocationVector" : "SpacingBetweenSlices";

@@ -194,6 +194,14 @@ class AxisReader {
             const Hdf5Handle group = files_.group(parents_[0]);
             steps = numbers_of(group.id(), "step");
             firsts = numbers_of(group.id(), "origin");
+            const auto differ = [&](const char* key, double usual) {
+                return std::ranges::any_of(numbers_of(group.id(), key),
+                                           [&](double number) { return number != usual; });
+            };
+            if (differ("rotation_angle", 0) || differ("cell_angles", 90))
+                say("{}: rotation_angle and cell_angles are not used: the grid is drawn as if it "
+                    "were neither turned nor oblique",
+                    array_.name());
         } else if (files_.has(geometry)) {
             const auto list = [&](const char* name) {
                 const Hdf5Handle set = files_.open_beside(fmt::format("{}/{}", geometry, name));

@@ -199,7 +199,10 @@ class TiffStack {
     // Takes the files of a folder for slices or, if each has slices, for an axis without a name.
     void add_files(std::int64_t pages_each) {
         const auto z = std::ranges::find(found_.axes, 'Z', &TiffAxis::letter);
-        const bool as_many = std::ssize(found_.pages) == pages_each * std::ssize(files_);
+        std::vector<std::int64_t> pages(files_.size());
+        for (const Page& page : found_.pages) ++pages[static_cast<std::size_t>(page.file)];
+        const bool as_many =
+            std::ranges::all_of(pages, [&](std::int64_t count) { return count == pages_each; });
         if (found_.writer.empty() && (z->size == 1 || !as_many)) {
             if (!as_many)
                 say("{}: its files have different numbers of pages: all are taken for slices, one "
@@ -212,7 +215,8 @@ class TiffStack {
             fail("{}: found {} pages in {} files, expected {} in each, as in the first", name_,
                  found_.pages.size(), files_.size(), pages_each);
         const bool has_slices = z != found_.axes.end() && z->size > 1;
-        if (z != found_.axes.end() && !has_slices) found_.axes.erase(z);
+        // An axis of one channel would take the request that chooses a file.
+        std::erase_if(found_.axes, [](const TiffAxis& axis) { return axis.size == 1; });
         found_.axes.push_back({has_slices ? '?' : 'Z', std::ssize(files_)});
     }
 

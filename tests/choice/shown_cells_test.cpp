@@ -266,6 +266,9 @@ TEST(KeptValues, AreTheRangeOfAColorBar) {
     wanted.colorbar.emplace();
     EXPECT_EQ(annotated_data(field, wanted).range, (ValueRange{1, 1000}));
     EXPECT_EQ(annotated_data(field, wanted, inside).range, (ValueRange{1, 45}));
+    // Between two samples both count: there the field goes up to 600.
+    const Clip between{{{grid.to_world({0.4, 0, 0}), {1, 0, 0}}}, {}};
+    EXPECT_EQ(annotated_data(field, wanted, between).range, (ValueRange{1, 1000}));
     EXPECT_EQ(annotated_data(field, wanted, nothing).range, (ValueRange{1, 1000}));
 }
 

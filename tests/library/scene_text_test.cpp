@@ -101,9 +101,11 @@ TEST(DataFiles, AreToldFromScenesByTheirBeginning) {
         std::ofstream(folder.path() / name) << " {\"version\": 1}";
         EXPECT_EQ(kind_of_file(folder.path() / name), FileKind::scene);
     }
-    std::ofstream(folder.path() / "samples.data") << "samples";
-    expect_error([&] { kind_of_file(folder.path() / "samples.data"); },
-                 {"samples.data", "found samples without a header", "--raw"});
+    for (const char* const samples : {"samples", "{{{{ samples", "{\x01\"samples", "{"}) {
+        std::ofstream(folder.path() / "samples.data") << samples;
+        expect_error([&] { kind_of_file(folder.path() / "samples.data"); },
+                     {"samples.data", "found samples without a header", "--raw"});
+    }
 }
 
 TEST(MeshMaking, StopsWhenAsked) {

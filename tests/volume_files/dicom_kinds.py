@@ -215,7 +215,11 @@ class Kinds:
             region.PhysicalDeltaX, region.PhysicalDeltaY = .09, -.07
         self.save("dcm_ultrasound", bare)
         self.case("dcm_ultrasound", array, says=["no PixelSpacing (PhysicalDeltaX and PhysicalDeltaY"])
-        regions[1].PhysicalDeltaX = .08  # two transducers
+        regions[1].PhysicalUnitsXDirection = 4  # seconds: a curve of Doppler
+        regions[1].PhysicalDeltaX = .08
+        self.save("dcm_ultrasound_curve", bare)
+        self.case("dcm_ultrasound_curve", array, says=["no PixelSpacing (PhysicalDeltaX and PhysicalDeltaY"])
+        regions[1].PhysicalUnitsXDirection = 3  # two transducers
         self.save("dcm_ultrasounds", bare)
         self.case("dcm_ultrasounds", array, says=["PixelAspectRatio"], spacing=(1, 1.5, 2.5), unit="")
         flat = self.stack(array)
@@ -316,6 +320,10 @@ class Kinds:
         placed.SliceLocationVector = [30 + 2.5 * z for z in order]
         self.save("dcm_locations", [placed])
         self.case("dcm_locations", array, origin=(*ORIGIN[:2], ORIGIN[2] - 5))
+        placed.SliceLocationVector.append(99)
+        self.save("dcm_locations_surplus", [placed])
+        self.case("dcm_locations_surplus", array[order], says=["SliceLocationVector with 8 places (9 are not used)"])
+        placed.SliceLocationVector.pop()
         placed.SliceLocationVector[3] += 2
         self.save("dcm_locations_uneven", [placed])
         self.bad("dcm_locations_uneven", "SliceLocationVector: found", "not equally spaced")

@@ -78,7 +78,7 @@ std::string Film::draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes
         const auto exists = [](const auto& path) { return std::filesystem::exists(path); };
         if (std::ranges::any_of(frames_->pictures(), exists)) throw;
         const ClientScope scope(finishing_client());
-        // Or else the same command would ask for --resume.
+        // Frees the name: the same command would ask for --resume otherwise.
         if (exists(name_ + ".frames")) frames_->remove_all();
         throw Interrupted("interrupted, nothing written");
     }

@@ -59,6 +59,19 @@ struct PictureBeingWritten {
     std::future<std::int64_t> clamped;  // its clamped pixels, once it is there
 };
 
+// Waits for pictures after an error, and records those that are complete. Their own errors count
+// less than the one that ended the others.
+void record_written(std::deque<PictureBeingWritten>& writing, SeriesRecord& record) {
+    const ClientScope scope(finishing_client());
+    for (PictureBeingWritten& picture : writing) {
+        try {
+            picture.clamped.get();
+            record.add(picture.name);
+        } catch (const std::exception&) {  // Error, or Interrupted
+        }
+    }
+}
+
 // Begins to write the picture that the pipeline drew last.
 PictureBeingWritten begin_to_write(std::string name, PictureFile file, Pipeline& pipeline,
                                    Image picture, const PictureAttributes& attributes) {
@@ -173,11 +186,11 @@ void Turntable::draw_missing(const std::vector<int>& views, SeriesRecord& record
     };
     try {
         for (const int view : views) draw_view(view);
-    } catch (const Interrupted&) {
         finish_but(0);
+    } catch (...) {
+        record_written(writing, record);
         throw;
     }
-    finish_but(0);
     run.picture.counts["clamped_pixels"] = clamped;
 }
 

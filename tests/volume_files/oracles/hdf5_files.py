@@ -255,6 +255,11 @@ def geometries(h5py, cases, write, add, bad):
         file["Chimera/image1/data_zyx"] = array
         file["Chimera/image1"].attrs.update({"step": [.9, .7, 2.5], "origin": [1., 2., 3.]})
     add("map.cmap", array, diagonal(.9, .7, 2.5), (1, 2, 3))
+    with h5py.File(cases.path("turned.cmap"), "w") as file:
+        file["Chimera/image1/data_zyx"] = array
+        file["Chimera/image1"].attrs.update({"step": [.9, .7, 2.5], "origin": [1., 2., 3.],
+                                             "rotation_axis": [0., 0., 1.], "rotation_angle": 45.})
+    add("turned.cmap", array, diagonal(.9, .7, 2.5), (1, 2, 3), warnings=["rotation_angle and cell_angles are not used"])
     with h5py.File(cases.path("grains.dream3d"), "w") as file:
         group = file.create_group("DataContainers/Grains")
         group["_SIMPL_GEOMETRY/SPACING"] = np.array([.9, .7, 2.5], "f4")

@@ -376,5 +376,10 @@ def folders(cases, tifffile):
     folder("bare_stacks", [(f"t{t}", stacks[t]) for t in range(6)], metadata=None)
     cases.add("bare_stacks", stacks[0], warnings=["the axis of 6 has no name and is taken for times"])
     cases.add("bare_stacks", stacks[4], time=4)
-    folder("split_stack", [("s1", stacks[0]), ("s2", stacks[1, :2])], metadata=None)
-    cases.add("split_stack", np.concatenate([stacks[0], stacks[1, :2]]), warnings=["all are taken for slices"])
+    folder("few_stacks", [(f"c{c}", stacks[c]) for c in range(3)], metadata=None)
+    cases.add("few_stacks", stacks[0], warnings=["the axis of 3 has no name and is taken for channels"])
+    cases.add("few_stacks", stacks[2], channel=2)
+    # As many pages as three stacks of three, but in other files.
+    parts = [stacks[0], stacks[1, :2], np.concatenate([stacks[1, 2:], stacks[2]])]
+    folder("split_stack", [(f"s{i}", part) for i, part in enumerate(parts)], metadata=None)
+    cases.add("split_stack", np.concatenate(parts), warnings=["all are taken for slices"])
