@@ -17,7 +17,8 @@ constexpr double mark_height = 0.5, text_gap = 0.35;
 
 std::string text_of(const Annotation& wanted, const Scene& scene, const std::string& unit,
                     double length) {
-    std::string text = number_text(length) + " " + (unit.empty() ? "units" : unit);
+    const std::string own = length == 1 ? "unit" : "units";
+    std::string text = number_text(length) + " " + (unit.empty() ? own : unit);
     if (!wanted.format.empty()) text = formatted(wanted.format, length);
     const bool perspective = scene.camera->projection == Projection::perspective;
     return perspective ? text + " at the centre" : text;

@@ -194,6 +194,7 @@ class RoleFinder {
         if (unknown_.size() == 2 && time < 0 && channel < 0) {
             time = unknown_[0];
             channel = unknown_[1];
+            if (are_all) say_five_axes(array_.name);
         } else if (unknown_.size() == 1 && time < 0 && channel < 0) {
             const int axis = unknown_[0];
             taken_.push_back(unnamed_axis(array_.name, request_.channel, request_.time,
@@ -339,11 +340,25 @@ void take_grid_unit(DescribedArray& array, const ArrayAttributes& attributes) {
 bool ends_with_channels(const std::string& file, const std::vector<std::int64_t>& shape,
                         const VolumeRequest& request) {
     const auto is_few = [](std::int64_t size) { return size >= 2 && size <= 4; };
-    if (shape.size() != 4 || request.time || is_few(shape[0]) || !is_few(shape[3])) return false;
+    const bool is_five = shape.size() == 5;
+    if (!is_five && (shape.size() != 4 || request.time)) return false;
+    // The axis that counts channels otherwise.
+    const std::int64_t other = shape[is_five ? 1 : 0];
+    if (is_few(other) || !is_few(shape.back())) return false;
+    if (is_five) {
+        say("{}: five axes without known names are taken for time, z, y, x and channel, because "
+            "the last has {} and the second {}",
+            file, shape.back(), other);
+        return true;
+    }
     say("{}: four axes without known names are taken for z, y, x and channel, because the "
         "last has {}: \"time\" in the volume takes the first for times",
-        file, shape[3]);
+        file, shape.back());
     return true;
+}
+
+void say_five_axes(const std::string& file) {
+    say("{}: five axes without known names are taken for time, channel, z, y and x", file);
 }
 
 bool ArrayPlace::is_in_order() const {

@@ -62,11 +62,13 @@ struct ArrayPlace {
     bool is_in_order() const;
 };
 
-// Tells if the last of four axes that a file does not name counts channels: it has 2 to 4 entries,
-// the first has not, and the request names no time. Says so. Else the first is the one that
-// unnamed_axis() takes. `file`: for messages.
+// Tells if the last of four or five axes that a file does not name counts channels: it has 2 to 4
+// entries, and the one that would count them otherwise has not: the first of four, unless the
+// request names a time, or the second of five. Says so. Else unnamed_axis() takes the first of
+// four, and five are said by say_five_axes(). `file`: for messages.
 bool ends_with_channels(const std::string& file, const std::vector<std::int64_t>& shape,
                         const VolumeRequest& request);
+void say_five_axes(const std::string& file);
 
 // Finds x, y, z, channel and time by the names and attributes of axes (CF conventions, section 4),
 // else by their order, z y x with times and channels before them; takes channel and time of the

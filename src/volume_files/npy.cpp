@@ -48,12 +48,13 @@ struct NpyArray {
 std::vector<StoredAxis> npy_axes(const std::string& name, std::vector<std::int64_t> shape,
                                  const VolumeRequest& request) {
     std::vector<StoredAxis> axes(shape.begin(), shape.end());
-    if (shape.size() == 5) {
-        axes[0] = taken_axis(name, "time", request.time, shape[0]);
+    const bool are_five = shape.size() == 5;
+    if (are_five) axes[0] = taken_axis(name, "time", request.time, shape[0]);
+    if (ends_with_channels(name, shape, request)) {
+        axes.back() = taken_axis(name, "channel", request.channel, shape.back());
+    } else if (are_five) {
         axes[1] = taken_axis(name, "channel", request.channel, shape[1]);
-        say("{}: five axes without names are taken for time, channel, z, y and x", name);
-    } else if (ends_with_channels(name, shape, request)) {
-        axes[3] = taken_axis(name, "channel", request.channel, shape[3]);
+        say_five_axes(name);
     } else if (shape.size() == 4) {
         axes[0] = unnamed_axis(name, request.channel, request.time, shape[0]);
     } else {

@@ -188,7 +188,7 @@ std::vector<double> kept_by_search(const Volume& volume, const std::vector<Index
             bool any = false;
             for (int corner = 0; corner < 8; ++corner) {
                 const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
-                any |= plane.distance(at + side - 0.5) > 0;
+                any |= plane.distance(at + side) > 0;  // the voxel of sample i spans i .. i + 1
             }
             return any;
         });
@@ -243,10 +243,10 @@ TEST(KeptValues, AreTheLabelsOfALegend) {
     };
     using Codes = std::vector<double>;
     EXPECT_EQ(listed({}), (Codes{0, 1, 2, 3}));
-    const double edge = grid.to_world({1.5, 0, 0}).x;  // between labels 1 and 2
+    const double edge = grid.origin.x + 1.5 * grid.step[0].x;  // between labels 1 and 2
     EXPECT_EQ(listed({{{{edge, 0, 0}, {1, 0, 0}}}, {}}), (Codes{2, 3}));
     EXPECT_EQ(listed({{{{edge - 1e-3, 0, 0}, {1, 0, 0}}}, {}}), (Codes{1, 2, 3}));
-    const glm::dvec3 low = grid.to_world({0.6, -1, -1}), high = grid.to_world({1.4, 9, 9});
+    const glm::dvec3 low = grid.to_world({1.1, -1, -1}), high = grid.to_world({1.9, 9, 9});
     EXPECT_EQ(listed({{}, ClipBox{low, high}}), Codes{1});
     EXPECT_EQ(listed({{{{99, 0, 0}, {1, 0, 0}}}, {}}), Codes{});
 }

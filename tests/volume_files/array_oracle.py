@@ -94,6 +94,8 @@ def zarr_cases():
     five = samples("<i2", (3, 2, 4, 5, 6))
     path = save_zarr("five", five, chunks=(2, 2, 3, 3, 3))
     case("five", path, five[0, 0])
+    behind = samples("<i2", (3, 7, 5, 6, 2))  # channels
+    case("behind", save_zarr("behind", behind, chunks=(2, 3, 3, 3, 2)), behind[2, ..., 1], time=2, channel=1)
     case("five_told", path, five[2, 1], time=2, channel=1)
     bad("five_beyond", path, "time", "found 3", "0 to 2", time=3)
     four = samples("<i2", (3, 4, 5, 6))

@@ -81,6 +81,9 @@ std::string Film::draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes
         // Frees the name: the same command would ask for --resume otherwise.
         if (exists(name_ + ".frames")) frames_->remove_all();
         throw Interrupted("interrupted, nothing written");
+    } catch (const Error& error) {
+        fail("{}; frames of {} that are there are kept in {}.frames, with which --resume goes on",
+             error.what(), name_, name_);
     }
     const std::size_t frames = frames_->pictures().size();
     try {

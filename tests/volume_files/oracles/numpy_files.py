@@ -52,7 +52,8 @@ def unnamed_axes(cases):
         letter = "f" if fortran else "c"
         few, many = values_of("uint16", (3, 4, 5, 6), seed=12), values_of("int16", (7, 4, 5, 6), seed=13)
         last, five = values_of("uint8", (7, 5, 6, 3), seed=14), values_of("uint8", (2, 3, 4, 5, 6), seed=15)
-        for name, array in (("few", few), ("many", many), ("last", last), ("five", five)):
+        behind = values_of("uint8", (2, 7, 5, 6, 3), seed=16)
+        for name, array in (("few", few), ("many", many), ("last", last), ("five", five), ("behind", behind)):
             np.save(cases.path(f"{name}_{letter}4.npy"), order(array))
         cases.add(f"few_{letter}4.npy", few[0], warnings=["the axis of 3 has no name and is taken for channels"])
         cases.add(f"few_{letter}4.npy", few[2], channel=2)
@@ -64,6 +65,8 @@ def unnamed_axes(cases):
         cases.add(f"last_{letter}4.npy", last[..., 2], channel=2)
         cases.add(f"five_{letter}4.npy", five[0, 0], warnings=["taken for time, channel, z, y and x"])
         cases.add(f"five_{letter}4.npy", five[1, 2], time=1, channel=2)
+        cases.add(f"behind_{letter}4.npy", behind[1, ..., 2], time=1, channel=2,
+                  warnings=["taken for time, z, y, x and channel, because the last has 3 and the second 7"])
     cases.refuse("few_c4.npy", "channel: found 3, expected a whole number from 0 to 2", channel=3)
     for name, array, found in (("complex", np.zeros((2, 3, 4), "c8"), "'<c8'"), ("six", np.zeros((1,) * 6), "(1, 1, 1"),
                                ("object", np.array([[[None, 1]]], dtype=object), "'|O'")):
