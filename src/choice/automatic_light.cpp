@@ -82,7 +82,7 @@ LightChoice choose_light(const Scene& scene, const TransferSubject& subject, con
         field.variation(measured, Variation(measured.lo, measured.hi, light_bins));
     const double half_bin = (measured.hi / 2 - measured.lo / 2) / static_cast<double>(light_bins);
     const double spacing = field.spacing();
-    double shown = 0, surfaces = 0;
+    double shown = 0, surfaces = 0, changes = 0;
     for (std::size_t bin = 0; bin < light_bins; ++bin) {
         const auto opacity_at = [&](double value) {
             return -std::expm1(-scene.transfer_function->at(value).extinction * spacing);
@@ -92,8 +92,11 @@ LightChoice choose_light(const Scene& scene, const TransferSubject& subject, con
                               std::abs(here - opacity_at(middle + half_bin));
         const double seen = around.weight(bin) * around.slope(bin) * change;
         shown += seen;
+        changes += change;
         if (around.slope(bin) >= smallest_gradient) surfaces += seen * around.coherence(bin);
     }
+    if (!(shown > 0) && changes > 0)
+        return {true, "lit: no sample has a value at which opacity changes, so edges are sharp"};
     if (!(shown > 0)) return {false, "not lit: nothing shows that has a surface"};
     const double share = surfaces / shown;
     const std::string found =

@@ -262,6 +262,21 @@ TEST(AutomaticLight, ShowsSurfacesButNotNoise) {
     EXPECT_NE(why[2].find("not lit"), std::string::npos) << why[2];
 }
 
+// No sample lies between the values of a ball and of what is around it.
+TEST(AutomaticLight, ShowsSharpEdges) {
+    std::mt19937 random(11);
+    std::normal_distribution<double> noise(0, 2);
+    const Volume volume = test::volume_of(
+        test::grid_of({48, 48, 48}, Centering::node), [&](double i, double j, double k) {
+            const bool inside = glm::length(glm::dvec3(i, j, k) - 23.5) < 16;
+            return (inside ? 100 : 0) + noise(random);
+        });
+    const MinMaxBricks bricks = measure_bricks(volume);
+    const auto [scene, reasons] = choose(picture_scene(), VolumeField(volume, bricks));
+    EXPECT_TRUE(scene.lighting) << reasons[2];
+    EXPECT_NE(reasons[2].find("edges are sharp"), std::string::npos) << reasons[2];
+}
+
 TEST(AutomaticLight, IsNotChosenWhereItWouldBeRefused) {
     const Scan scan;
     const auto reason_for = [&](const auto& change) {
