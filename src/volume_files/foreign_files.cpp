@@ -125,9 +125,6 @@ void expect_no_foreign_file(const std::filesystem::path& path, bool is_named) {
     if (std::filesystem::file_size(path, unreadable) == 0 && !unreadable)
         fail("{}: the file is empty", path.string());
     const std::string beginning = file_beginning(path, 512);
-    // A scene may have any name.
-    const std::size_t first = beginning.find_first_not_of(" \t\r\n");
-    const bool is_scene = first != beginning.npos && beginning[first] == '{';
     const std::string extension = lower_suffix(path);
     for (const ForeignFormat& format : formats_not_read) {
         // A declaration of XML may stand in front of an element.
@@ -136,9 +133,9 @@ void expect_no_foreign_file(const std::filesystem::path& path, bool is_named) {
             !format.mark.empty() && beginning.size() > format.at &&
             (std::string_view(beginning).substr(format.at).starts_with(format.mark) ||
              (is_element && beginning.find(format.mark) != beginning.npos));
-        const bool has_name = !is_scene && !extension.empty() &&
-                              std::string_view(format.extensions).find(" " + extension + " ") !=
-                                  std::string_view::npos;
+        const bool has_name =
+            !extension.empty() && std::string_view(format.extensions).find(" " + extension + " ") !=
+                                      std::string_view::npos;
         if ((is_marked || has_name) && !(is_named && format.advice == unpack))
             fail("{}: found {}, which is not read: {}", path.string(), format.name, format.advice);
     }
