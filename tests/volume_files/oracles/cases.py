@@ -6,6 +6,7 @@ import os
 
 import numpy as np
 
+SHAPE = (4, 5, 6)  # z, y, x
 TYPES = ["int8", "uint8", "int16", "uint16", "int32", "uint32", "int64", "uint64", "float32", "float64"]
 
 
@@ -76,3 +77,12 @@ def rotation(a, b, c):
         matrix[i, j], matrix[j, i] = -math.sin(angle), math.sin(angle)
         return matrix
     return turn(0, 1, a) @ turn(0, 2, b) @ turn(1, 2, c)
+
+
+def ramp(dtype="<i2", shape=SHAPE):
+    """Samples that all differ, and differ from those of any other order of axes."""
+    return (np.arange(np.prod(shape)).reshape(shape) * 7 % 997).astype(dtype)
+
+
+def diagonal(x, y, z):
+    return np.diag([x, y, z]).astype(float)
