@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/json_text.h"
+#include "volume_files/array_axes.h"
 #include "volume_files/numbered_files.h"
 #include "volume_files/volume_opening.h"
 
@@ -132,7 +133,7 @@ void name_axes(const TiffBeginning& first, std::vector<TiffAxis>& axes) {
     if (left == 2 && others == 0) {
         std::ranges::find_if(axes, is('?'))->letter = 'C';
         std::ranges::find_if(axes, is('?'))->letter = 'T';
-        say("{}: five axes without names are taken for time, channel, z, y and x", first.file);
+        say_five_axes(first.file);
     } else if (left > 1) {
         fail("{}: shape: found {} axes beside x, y and z without a name, expected one", first.file,
              left);

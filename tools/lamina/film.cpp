@@ -72,18 +72,20 @@ Film::Film(const OutputOptions& options, const OutputScene& scene, const DataSer
 }
 
 std::string Film::draw(Pipeline& pipeline, RunStatistics& run, PictureAttributes attributes) {
+    const auto exists = [](const auto& path) { return std::filesystem::exists(path); };
+    const auto some_are_there = [&] { return std::ranges::any_of(frames_->pictures(), exists); };
     try {
         frames_->draw(pipeline, run, std::move(attributes));
     } catch (const Interrupted&) {
-        const auto exists = [](const auto& path) { return std::filesystem::exists(path); };
-        if (std::ranges::any_of(frames_->pictures(), exists)) throw;
+        if (some_are_there()) throw;
         const ClientScope scope(finishing_client());
         // Frees the name: the same command would ask for --resume otherwise.
         if (exists(name_ + ".frames")) frames_->remove_all();
         throw Interrupted("interrupted, nothing written");
     } catch (const Error& error) {
-        fail("{}; frames of {} that are there are kept in {}.frames, with which --resume goes on",
-             error.what(), name_, name_);
+        if (!some_are_there()) throw;
+        fail("{}; the frames that are there are kept in {}.frames, with which --resume goes on",
+             error.what(), name_);
     }
     const std::size_t frames = frames_->pictures().size();
     try {
