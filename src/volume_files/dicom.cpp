@@ -319,8 +319,7 @@ void expect_pixels(const DicomSeries& series) {
 // tables of values, scales each slice to floats.
 class SliceReader {
   public:
-    // `line`: the line of the isolated process that reads compressed images; else null.
-    SliceReader(const DicomSeries& series, IsolatedLine* line)
+    explicit SliceReader(const DicomSeries& series)
         : series_(series), first_(*series.slices[0].image) {
         expect_pixels(series);
         const DicomFrame& frame = *series.slices[0].frame;
@@ -332,19 +331,31 @@ class SliceReader {
         if (is_scaled_) samples_ = {series.name, ValueType::float32, nullptr};
         const auto& size = series.grid.size;
         const StoredAxis axes[] = {{size[0], {}}, {size[1], {}}, {size[2], {}}};
-        const std::size_t bytes = stored_bytes(series.name, axes, bytes_of(samples_.type));
-        std::size_t largest = 0;  // image that is decoded as a whole
-        for (const DicomImage& image : series.images)
-            largest = std::max(largest, image.byte_count());
-        if (line != nullptr) line->allow_bytes(bytes + largest);
-        samples_.bytes = line != nullptr ? line->shared_memory(bytes) : filled_memory(bytes);
+        bytes_ = stored_bytes(series.name, axes, bytes_of(samples_.type));
         slice_values_ = static_cast<std::size_t>(size[0] * size[1]);
     }
 
+    // Reads uncompressed slices here, others in an isolated process.
     StoredSamples read() {
+        const auto compressed = [](const DicomSlice& slice) { return slice.image->compressed; };
+        if (std::ranges::none_of(series_.slices, compressed)) {
+            samples_.bytes = filled_memory(bytes_);
+            read_to(static_cast<char*>(samples_.bytes.get()));
+            return samples_;
+        }
+        std::size_t largest = 0;  // image that is decoded as a whole
+        for (const DicomImage& image : series_.images)
+            largest = std::max(largest, image.byte_count());
+        samples_.bytes = isolated_bytes(series_.name, "GDCM", bytes_, bytes_ + largest,
+                                        [&](char* to) { read_to(to); });
+        return samples_;
+    }
+
+  private:
+    void read_to(char* const samples) {
         for (const DicomImage& image : series_.images) {
             std::optional<DicomPixels> pixels;
-            auto* to = static_cast<char*>(samples_.bytes.get());
+            char* to = samples;
             for (const auto& [its_image, frame] : series_.slices) {
                 if (its_image == &image) {
                     check_interrupt();
@@ -359,10 +370,8 @@ class SliceReader {
                 "are drawn like others",
                 series_.name, padded_);
         }
-        return samples_;
     }
 
-  private:
     void read_slice(const DicomPixels& pixels, const DicomImage& image, const DicomFrame& frame,
                     char* to) {
         if (image.type != first_.type) {
@@ -426,7 +435,7 @@ class SliceReader {
     const DicomImage& first_;
     StoredSamples samples_;
     bool is_scaled_ = false;
-    std::size_t slice_values_ = 0, padded_ = 0;
+    std::size_t bytes_ = 0, slice_values_ = 0, padded_ = 0;
     std::string raw_, mosaic_;  // pixels of a slice; of an image with tiles
     const DicomImage* mosaic_of_ = nullptr;
 };
@@ -469,13 +478,7 @@ bool is_dicom(const std::filesystem::path& path) {
 Volume open_dicom(const std::filesystem::path& path, const VolumeRequest& request,
                   const VolumeUse& use) {
     const DicomSeries series = read_dicom_series(path, request, use.contents);
-    const auto compressed = [](const DicomSlice& slice) { return slice.image->compressed; };
-    if (std::ranges::none_of(series.slices, compressed))
-        return drawn_volume(series.grid, SliceReader(series, nullptr).read(), use.lookup);
-    const ReadSamples found = read_isolated(series.name, "GDCM", [&](IsolatedLine& line) {
-        return ReadSamples{series.grid, SliceReader(series, &line).read()};
-    });
-    return drawn_volume(series.grid, found.samples, use.lookup);
+    return drawn_volume(series.grid, SliceReader(series).read(), use.lookup);
 }
 
 std::vector<std::filesystem::path> files_of_dicom(const std::filesystem::path& path) {

@@ -12,14 +12,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <exception>
 #include <fstream>
 #include <mutex>
 #include <new>
-#include <type_traits>
 
 #include "base/client.h"
 #include "base/error.h"
@@ -164,19 +162,6 @@ void end_with_starter(pid_t starter) {
     _exit(0);
 }
 
-// The answer of read_isolated()'s process, as it lies in memory: both are the same program.
-struct ReadHead {
-    std::array<std::int64_t, 3> size;
-    std::array<Centering, 3> centering;
-    glm::dvec3 origin;
-    std::array<glm::dvec3, 3> step;
-    WorldAxes axes;
-    char unit[64];  // ends with a zero byte; longer units are left out
-    ValueType type;
-    double scale, offset;
-};
-static_assert(std::is_trivially_copyable_v<ReadHead>);
-
 }  // namespace
 
 IsolatedProcess::IsolatedProcess(std::string name, const char* library, const Work& work)
@@ -300,24 +285,6 @@ std::shared_ptr<void> isolated_bytes(const std::string& name, const char* librar
     char answer = 0;
     process.receive(&answer, sizeof answer);
     return process.shared_memory(bytes);
-}
-
-ReadSamples read_isolated(const std::string& name, const char* library,
-                          const std::function<ReadSamples(IsolatedLine&)>& read) {
-    IsolatedProcess process(name, library, [&](IsolatedLine& line) {
-        const ReadSamples found = read(line);
-        const Grid& grid = found.grid;
-        ReadHead head{grid.size,          grid.centering,      grid.origin,
-                      grid.step,          grid.axes,           {},
-                      found.samples.type, found.samples.scale, found.samples.offset};
-        if (grid.unit.size() < sizeof head.unit) grid.unit.copy(head.unit, grid.unit.size());
-        line.answer(&head, sizeof head);
-    });
-    ReadHead head;
-    process.receive(&head, sizeof head);
-    const Grid grid{head.size, head.centering, head.origin, head.step, head.axes, head.unit};
-    const std::size_t bytes = static_cast<std::size_t>(grid.sample_count()) * bytes_of(head.type);
-    return {grid, {name, head.type, process.shared_memory(bytes), head.scale, head.offset}};
 }
 
 }  // namespace lamina

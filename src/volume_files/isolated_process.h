@@ -7,9 +7,6 @@
 #include <memory>
 #include <string>
 
-#include "lamina/volume.h"
-#include "volume_files/stored_samples.h"
-
 namespace lamina {
 
 // Connects an isolated process to its starter, the process whose questions it answers.
@@ -65,16 +62,5 @@ class IsolatedProcess {
 std::shared_ptr<void> isolated_bytes(const std::string& name, const char* library,
                                      std::size_t bytes, std::size_t decoded,
                                      const std::function<void(char*)>& fill);
-
-// The grid and the samples that a reader has found in a file.
-struct ReadSamples {
-    Grid grid;
-    StoredSamples samples;
-};
-
-// Calls `read` in an isolated process; it must put the samples into the line's shared_memory().
-// `name`: the file's, for messages. Throws Error.
-ReadSamples read_isolated(const std::string& name, const char* library,
-                          const std::function<ReadSamples(IsolatedLine&)>& read);
 
 }  // namespace lamina
