@@ -5,14 +5,35 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/value_type.h"
-#include "volume_files/zarr_codecs.h"
 #include "volume_files/zarr_store.h"
 
 namespace lamina {
+
+// A codec that turns bytes into bytes: a compression, or a checksum behind them. decode() returns
+// false unless it gives exactly decoded.size() bytes.
+struct ZarrCodec {
+    const char* name;
+    bool in_version_2, in_version_3;
+    bool (*decode)(std::span<const char> stored, std::span<char> decoded);
+    bool is_checksum = false;
+};
+
+// Upper bound on the bytes that one byte decodes to: zstd packs 2^17 equal bytes into 4.
+inline constexpr std::size_t most_chunk_expansion = 1 << 16;
+
+// Returns the codec of a name in a version of Zarr; null if there is none.
+const ZarrCodec* zarr_codec(std::string_view name, int version);
+
+// Decodes a chunk of exactly chunk.size() bytes. `codecs`: in the order in which they encode; at
+// most one is a compression. Throws Error. `name`: the chunk's file, for messages.
+void decode_chunk(std::span<const ZarrCodec* const> codecs, std::span<const char> stored,
+                  std::span<char> chunk, const std::string& name);
 
 // Chunks that lie together in one file (sharding codec, version 1.0). An index says where each
 // begins and how many bytes it has.
@@ -62,22 +83,12 @@ nlohmann::json zarr_attributes(const ZarrStore& store, const std::filesystem::pa
 // invalid, or if lamina cannot read arrays of this kind.
 ZarrArray read_zarr_array(const ZarrStore& store, const std::filesystem::path& folder);
 
-// Reads the parts of it that only one of the versions has.
+// Reads an array of version 2. Throws Error.
 ZarrArray read_zarray(const ZarrStore& store, const std::filesystem::path& folder);
-ZarrArray read_zarr_json(const ZarrStore& store, const std::filesystem::path& folder);
 
-// Return what headers of both versions have: a member, whole numbers above 0, and one of two words,
-// or `otherwise` if there is none and this is not null. Throw Error, which begins with `name`, the
-// file's.
+// Returns a member of a header. Throws Error, which begins with `name`, the file's, if there is
+// none.
 const nlohmann::json& zarr_member(const nlohmann::json& object, const char* key,
                                   const std::string& name);
-std::vector<std::int64_t> zarr_sizes(const nlohmann::json& object, const char* key,
-                                     const std::string& name);
-std::string zarr_word(const nlohmann::json& object, const char* key,
-                      const std::array<const char*, 2>& words, const char* otherwise,
-                      const std::string& name);
-// Set the fill value, type first, and check the size of chunks.
-void set_fill(ZarrArray& array, const nlohmann::json& fill);
-void expect_small_chunks(const ZarrArray& array);
 
 }  // namespace lamina

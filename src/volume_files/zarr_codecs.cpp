@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bytes of chunks as numcodecs packs them, and the checksum of RFC 3720 (iSCSI), appendix B.4.
-#include "volume_files/zarr_codecs.h"
+#include "volume_files/zarr_array.h"
 
 #include <blosc.h>
 #include <lz4.h>
@@ -8,7 +8,6 @@
 #include <zstd.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstring>
 #include <limits>
