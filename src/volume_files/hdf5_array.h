@@ -40,6 +40,10 @@ class Hdf5Handle {
     Closer close_;
 };
 
+// Lets libhdf5 read LZF, h5py's own compression, unless it can already: h5py in this process
+// registers a filter that writes, too.
+void add_lzf_filter();
+
 // Return an attribute of a group or data set: its numbers, up to 64, and their type; its texts; its
 // texts one after another, because Imaris stores each letter as one; or nothing.
 std::vector<double> numbers_of(hid_t object, const std::string& key);
@@ -58,6 +62,8 @@ bool stores_elsewhere(hid_t set);
 // Returns the type of a data set's samples, if they are numbers that lamina reads.
 std::optional<ValueType> type_in(hid_t set);
 
+// Returns the number of axes of a data set; negative if it is no array.
+int rank_of(hid_t set);
 // Tell if an array has as many axes as a volume has, and if it has numbers, too.
 bool has_axes_of_volume(hid_t set);
 bool can_be_volume(hid_t set);

@@ -203,12 +203,8 @@ class AxisReader {
                     "were neither turned nor oblique",
                     array_.name());
         } else if (files_.has(geometry)) {
-            const auto list = [&](const char* name) {
-                const Hdf5Handle set = files_.open_beside(fmt::format("{}/{}", geometry, name));
-                return set.valid() ? numbers_in(set.id(), 3) : std::vector<double>();
-            };
-            steps = list("SPACING");
-            firsts = list("ORIGIN");
+            steps = files_.numbers(geometry + "/SPACING", 3);
+            firsts = files_.numbers(geometry + "/ORIGIN", 3);
             for (std::size_t i = 0; i < std::min(steps.size(), firsts.size()); ++i)
                 firsts[i] += steps[i] / 2;
         }

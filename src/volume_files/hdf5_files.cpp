@@ -9,7 +9,6 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
-#include "volume_files/hdf5_filters.h"
 #include "volume_files/volume_formats.h"
 
 namespace lamina {

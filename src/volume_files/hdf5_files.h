@@ -28,6 +28,11 @@ class Hdf5Files {
     // before.
     Hdf5Handle open_set(const std::string& path);
     Hdf5Handle open_beside(const std::string& path) { return open_in(name(), path, 0); }
+    // Returns the numbers of the data set (numbers_in()), or none if there is no such data set.
+    std::vector<double> numbers(const std::string& path, std::size_t count = 0) {
+        const Hdf5Handle set = open_beside(path);
+        return set.valid() ? numbers_in(set.id(), count) : std::vector<double>();
+    }
     // Tells if a group or data set of this path is in the file itself.
     bool has(const std::string& path) const;
     // Opens a group in the file itself. Returns an invalid handle if there is none.

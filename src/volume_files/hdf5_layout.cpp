@@ -178,8 +178,7 @@ Hdf5Layout big_data_viewer(Hdf5Files& files, const VolumeRequest& request,
     layout.is_unsigned = true;  // bdv-core writes uint16 as int16
 
     const std::string name = fmt::format("/s{:02}/resolutions", setup);
-    const Hdf5Handle set = files.open_beside(name);
-    const std::vector<double> factors = set.valid() ? numbers_in(set.id()) : std::vector<double>();
+    const std::vector<double> factors = files.numbers(name);
     if (factors.size() != 3 * static_cast<std::size_t>(levels)) {
         fail("{}:{}: found {} numbers, expected {}, three a level", files.name(), name,
              factors.size(), 3 * levels);
@@ -232,9 +231,7 @@ class VtkHdfReader {
         Hdf5Layout layout(array(wanted, contents), request);
         const bool of_cells = layout.array.starts_with("/VTKHDF/CellData/");
         place(layout, of_cells);
-        const Hdf5Handle set = files_.open_beside(layout.array);
-        const Hdf5Handle space(H5Dget_space(set.id()), H5Sclose);
-        const int rank = H5Sget_simple_extent_ndims(space.id());
+        const int rank = rank_of(files_.open_beside(layout.array).id());
         const bool is_temporal = files_.has("/VTKHDF/Steps") && rank >= 4;
         layout.labels = is_temporal ? "tzyxc" : "zyxc";
         if (rank < 3 || rank > static_cast<int>(layout.labels.size()))
@@ -298,20 +295,16 @@ class VtkHdfReader {
             std::clamp(expected_numbers(files_, "/VTKHDF/Steps", "NSteps", 1)[0], 1.0, 1e6));
         const std::int64_t step = take(files_, "time", layout.request.time, count);
         contents.times.resize(static_cast<std::size_t>(count));
-        const auto list = [&](const std::string& path) {
-            const Hdf5Handle set = files_.open_beside(path);
-            return set.valid() ? numbers_in(set.id(), contents.times.size())
-                               : std::vector<double>();
-        };
-        const std::vector<double> values = list("/VTKHDF/Steps/Values");
+        const auto values = files_.numbers("/VTKHDF/Steps/Values", contents.times.size());
         for (std::size_t i = 0; i < values.size(); ++i)
             contents.times[i] = fmt::format("{}", values[i]);
         layout.request.time.reset();
         if (!is_temporal) return;
         const std::size_t data = layout.array.find('/', 8), name = layout.array.rfind('/');
         const auto offsets =
-            list(fmt::format("/VTKHDF/Steps/{}Offsets{}", layout.array.substr(8, data - 8),
-                             layout.array.substr(name)));
+            files_.numbers(fmt::format("/VTKHDF/Steps/{}Offsets{}",
+                                       layout.array.substr(8, data - 8), layout.array.substr(name)),
+                           contents.times.size());
         const double first =
             offsets.empty() ? static_cast<double>(step) : offsets[static_cast<std::size_t>(step)];
         const bool is_index = first >= 0 && first < 1e12;  // not if it is NaN
@@ -326,9 +319,7 @@ class VtkHdfReader {
 Hdf5Layout itk_image(Hdf5Files& files, const VolumeRequest& request) {
     const auto list = [&](const char* name, std::size_t count) {
         const std::string path = fmt::format("/ITKImage/0/{}", name);
-        const Hdf5Handle set = files.open_beside(path);
-        std::vector<double> numbers =
-            set.valid() ? numbers_in(set.id(), count) : std::vector<double>();
+        std::vector<double> numbers = files.numbers(path, count);
         if (numbers.empty())
             fail("{}:{}: found none, expected {} numbers", files.name(), path, count);
         return numbers;
@@ -342,9 +333,7 @@ Hdf5Layout itk_image(Hdf5Files& files, const VolumeRequest& request) {
                        glm::dvec3(directions[3 * i], directions[3 * i + 1], directions[3 * i + 2]);
     grid.origin = {origin[0], origin[1], origin[2]};
     grid.axes = WorldAxes::left_posterior_superior;  // as in all of ITK
-    const Hdf5Handle set = files.open_beside(layout.array);
-    const Hdf5Handle space(H5Dget_space(set.id()), H5Sclose);
-    layout.labels = H5Sget_simple_extent_ndims(space.id()) == 4 ? "zyxc" : "zyx";
+    layout.labels = rank_of(files.open_beside(layout.array).id()) == 4 ? "zyxc" : "zyx";
     return layout;
 }
 
