@@ -13,7 +13,6 @@
 #include "scene/camera.h"
 #include "scene_files/keys.h"
 #include "scene_files/scene_keys.h"
-#include "volume_files/folder_contents.h"
 #include "volume_files/foreign_files.h"
 #include "volume_files/volume_file.h"
 

@@ -481,4 +481,15 @@ void fail_as_minc(const std::string& file) {
         file);
 }
 
+ArrayPath array_path(const std::filesystem::path& path) {
+    std::error_code unreadable;
+    if (std::filesystem::exists(path, unreadable)) return {path, ""};
+    const std::string text = path.string();
+    for (std::size_t at = text.find(":/"); at != std::string::npos; at = text.find(":/", at + 1)) {
+        const std::filesystem::path file = text.substr(0, at);
+        if (std::filesystem::is_regular_file(file, unreadable)) return {file, text.substr(at + 1)};
+    }
+    return {path, ""};
+}
+
 }  // namespace lamina

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -12,6 +13,14 @@
 #include "volume_files/volume_opening.h"
 
 namespace lamina {
+
+// The file and the array ("/PATH") of a path "FILE.h5:/PATH". `array` is empty for a plain file.
+struct ArrayPath {
+    std::filesystem::path file;
+    std::string array;
+};
+
+ArrayPath array_path(const std::filesystem::path& path);
 
 // An axis of an array of HDF5 or NetCDF, as the file describes it.
 struct ArrayAxis {

@@ -14,7 +14,6 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "volume_files/dicom_image.h"
-#include "volume_files/dicom_phases.h"
 #include "volume_files/dicom_places.h"
 #include "volume_files/isolated_process.h"
 

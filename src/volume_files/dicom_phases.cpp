@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume_files/dicom_phases.h"
+#include "volume_files/dicom_places.h"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,6 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
-#include "volume_files/dicom_phases.h"
 #include "volume_files/numbered_files.h"
 
 namespace lamina {

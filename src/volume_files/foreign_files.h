@@ -10,4 +10,8 @@ namespace lamina {
 // scene, volume or mesh by its content. `is_named`: by its name it is one, which may be packed.
 void expect_no_foreign_file(const std::filesystem::path& path, bool is_named = false);
 
+// Throws Error if the path is a folder: one line that says so and what is in it. To be called when
+// the path is known to be no volume.
+void expect_no_folder(const std::filesystem::path& path);
+
 }  // namespace lamina

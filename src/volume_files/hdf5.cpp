@@ -17,7 +17,6 @@
 #include "base/error.h"
 #include "base/input_file.h"
 #include "base/json_text.h"
-#include "volume_files/array_path.h"
 #include "volume_files/hdf5_layout.h"
 #include "volume_files/isolated_process.h"
 #include "volume_files/sample_sources.h"

@@ -14,7 +14,6 @@
 #include "base/input_file.h"
 #include "base/memory.h"
 #include "volume_files/array_axes.h"
-#include "volume_files/array_path.h"
 #include "volume_files/packed_values.h"
 #include "volume_files/stored_data.h"
 #include "volume_files/volume_formats.h"

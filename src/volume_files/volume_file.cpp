@@ -11,8 +11,8 @@
 #include "base/error.h"
 #include "base/input_file.h"
 #include "volume/labels.h"
+#include "volume_files/array_axes.h"
 #include "volume_files/bricked_copy.h"
-#include "volume_files/folder_contents.h"
 #include "volume_files/foreign_files.h"
 #include "volume_files/volume_formats.h"
 
@@ -233,6 +233,20 @@ Volume placed(const Path& path, const Volume& volume, const VolumeRequest& reque
 }
 
 }  // namespace
+
+// Not in hdf5.cpp: builds without HDF5 name the format of such files.
+bool is_hdf5(const std::filesystem::path& path) {
+    constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
+    const std::filesystem::path file = array_path(path).file;
+    std::error_code unreadable;
+    if (std::filesystem::is_directory(file, unreadable)) return false;
+    const std::string beginning = file_beginning(file, 2048 + signature.size());
+    for (const std::size_t at : {0, 512, 1024, 2048}) {
+        if (beginning.size() > at && std::string_view(beginning).substr(at).starts_with(signature))
+            return true;
+    }
+    return false;
+}
 
 bool is_volume_file(const Path& path) {
     return !volume_format_of(path).empty();
