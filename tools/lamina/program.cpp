@@ -147,29 +147,25 @@ std::string not_empty(const std::string& text) {
     return text.empty() ? "found '', expected a value" : "";
 }
 
-// Returns what CLI11 says of numbers (NAME = FOUND, or NAME: Value FOUND not in range FROM to TO)
-// in lamina's form; nothing of other texts.
-std::optional<std::string> text_of_number(const std::string& text) {
-    const auto between = [&](std::string_view before, std::string_view after) {
-        const std::size_t from = text.find(before) + before.size();
-        return text.substr(from, text.find(after, from) - from);
-    };
-    if (const std::string_view start = "Could not convert: "; text.starts_with(start)) {
-        double number = 0;
-        const std::string found = text.substr(text.find(" = ") + 3);
-        const bool whole = CLI::detail::lexical_cast(found, number);  // but no fraction
-        return fmt::format("{}: found {}, expected a {}", between(start, " = "), shortened(found),
-                           whole ? "whole number" : "number");
+// Tells if this is what CLI11 says of an option whose words are no number of its type.
+bool is_about(const CLI::Option& option, const CLI::ParseError& error) {
+    return std::string_view(error.what()) ==
+           CLI::ConversionError(option.get_name(), option.results()).what();
+}
+
+// Returns what CLI11 says of words that are no number, in lamina's form; nothing of other errors.
+std::optional<std::string> text_of_number(const CLI::ParseError& error, const CLI::App& app) {
+    for (const CLI::App* const verb : app.get_subcommands()) {
+        for (const CLI::Option* const option : verb->get_options()) {
+            if (!is_about(*option, error)) continue;
+            const std::string found = one_line(CLI::detail::join(option->results()));
+            double number = 0;
+            const bool is_fraction = CLI::detail::lexical_cast(found, number);
+            return fmt::format("{}: found {}, expected a {}", option->get_name(), shortened(found),
+                               is_fraction ? "whole number" : "number");
+        }
     }
-    const std::string_view value = ": Value ", beyond = " not in range ";
-    const std::size_t at = text.find(beyond);
-    if (at == text.npos || text.find(value) > at) return std::nullopt;
-    const std::string bounds = text.substr(at + beyond.size());
-    double least = 0, most = 0;
-    std::sscanf(bounds.c_str(), "%lf to %lf", &least, &most);
-    return fmt::format("{}: found {}, expected a {} from {:.9g} to {:.9g}",
-                       text.substr(0, text.find(value)), shortened(between(value, beyond)),
-                       bounds.find('.') == bounds.npos ? "whole number" : "number", least, most);
+    return std::nullopt;
 }
 
 // Returns what CLI11 found wrong, for people.
@@ -180,7 +176,7 @@ std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
         return fmt::format("{}: found {} times, expected once", text.substr(0, at),
                            text.substr(at + twice.size()));
     }
-    if (const auto number = text_of_number(text)) return *number;
+    if (const auto number = text_of_number(error, app)) return *number;
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && text.ends_with(" missing"))
         return text.substr(0, text.find(':')) + ": expected a value after it";
     if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return text;

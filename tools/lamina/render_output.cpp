@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <type_traits>
+
 #include "base/client.h"
 #include "base/error.h"
 #include "base/profile.h"
@@ -16,6 +18,18 @@
 
 namespace lamina {
 namespace {
+
+// Checks a number as CLI::Range does, with a message of lamina's form.
+template <typename Number>
+CLI::Validator within(Number least, Number most) {
+    const auto check = [=](const std::string& text) -> std::string {
+        if (CLI::Range(least, most)(text).empty()) return {};
+        return fmt::format("found {}, expected a {} from {:.9g} to {:.9g}", shortened(text),
+                           std::is_integral_v<Number> ? "whole number" : "number",
+                           static_cast<double>(least), static_cast<double>(most));
+    };
+    return {check, "", ""};
+}
 
 std::unique_ptr<OutputFile> open_file(const std::string& output) {
     if (output == standard_stream && isatty(STDOUT_FILENO) != 0)
@@ -155,24 +169,24 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
         ->option_text("png|exr|npy");
     verb.add_option("--frames", options.frames,
                     "Time this many frames, the camera turning a little")
-        ->check(CLI::Range(1, most_frames))
+        ->check(within(1, most_frames))
         ->option_text("N");
     verb.add_option("--turn-by", options.turn_by,
                     fmt::format("With --frames: turn the camera by this from frame to frame, "
                                 "-180 to 180; {} by default. 10 shows what frames take whose views "
                                 "have little in common",
                                 degrees_per_frame))
-        ->check(CLI::Range(-180.0, 180.0))
+        ->check(within(-180.0, 180.0))
         ->option_text("DEGREES");
     verb.add_option("--warm-up", options.warm_up,
                     "With --frames: first draw frames for this long that are not timed, until a "
                     "GPU's clock has risen")
-        ->check(CLI::Range(0.0, 3600.0))
+        ->check(within(0.0, 3600.0))
         ->option_text("SECONDS");
     verb.add_option("--turntable", options.views,
                     "Write this many views around the camera's centre, from -o out_%04d.png; views "
                     "that are there from an earlier run of the same scene are kept")
-        ->check(CLI::Range(1, most_views))
+        ->check(within(1, most_views))
         ->option_text("N");
     verb.add_option(
             "--time", options.time,
@@ -185,7 +199,7 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
                     "--fps of them a second, as a film or as out_%04d.png")
         ->option_text("FILE");
     verb.add_option("--fps", options.fps, "Frames a second, of films and of --path; 25 by default")
-        ->check(CLI::Range(1, 240))
+        ->check(within(1, 240))
         ->option_text("N");
     verb.add_flag("--resume", options.resume,
                   "Go on with a film that was stopped: keep the frames that are there");
