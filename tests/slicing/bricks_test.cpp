@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Volumes that are cut into several textures.
+#include "engine_fixture.h"
 #include "reference/chord.h"
 #include "slicing/slab_geometry.h"
-#include "slicing_fixture.h"
 #include "volume/generate.h"
 
 namespace lamina {
@@ -88,7 +88,7 @@ TEST_F(SlicingTest, BricksComeInVisibilityOrderAlongEveryRay) {
 // Cutting a volume into bricks divides segments at the bricks' faces and changes nothing else. Both
 // pictures have an error of second order, here below .2 / 255. A seam (a layer drawn twice or not
 // at all) would cost the colour of a full segment, over 1 / 255.
-TEST_F(SlicingTest, BricksLeaveNoSeam) {
+TEST_P(BothEngines, BricksLeaveNoSeam) {
     const Volume volume = gaussians(40);
     for (const Classification classification :
          {Classification::post, Classification::preintegrated}) {
@@ -97,10 +97,12 @@ TEST_F(SlicingTest, BricksLeaveNoSeam) {
             scene.slice.samples = 200;
             scene.slice.classification = classification;
             scene.slice.order = order;
-            const Image whole = render(volume, scene, capabilities());
-            const Image cut =
-                render(volume, scene, with_small_textures(capabilities(), 16 * 64 * 48 + 4 * 1000));
-            EXPECT_LE(image_error(whole, cut).all.linf, .2);
+            const auto small = with_small_textures(capabilities(), 16 * 64 * 48 + 4 * 1000);
+            for (const OmissionSwitch& omissions : {OmissionSwitch{}, keep("blending")}) {
+                EXPECT_LE(
+                    linf(draw(volume, scene, omissions), draw(volume, scene, omissions, small)),
+                    .2);
+            }
         }
     }
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "cpu_fixture.h"
 
@@ -34,6 +35,20 @@ class EngineTest : public gl::ContextTest<testing::TestWithParam<const char*>> {
                const Capabilities& capabilities) {
         return is_native() ? render_tiles(volume, scene, omissions, capabilities)
                            : render(volume, scene, capabilities, omissions);
+    }
+};
+
+// Tests that run with the cpu engine and with OpenGL in software (instantiated in
+// cpu_picture_test.cpp).
+class BothEngines : public EngineTest {
+  protected:
+    // Returns the engine's capabilities and, of OpenGL, those of a context that fetches samples.
+    std::vector<Capabilities> ways() const {
+        std::vector<Capabilities> all{capabilities()};
+        if (is_native()) return all;
+        all.push_back(capabilities());
+        all.back().exact_float_filter = false;
+        return all;
     }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A homogeneous box has the opacity that follows from the exact length of the ray's chord, for any
 // number of slabs and any angle.
+#include "engine_fixture.h"
 #include "reference/chord.h"
-#include "slicing_fixture.h"
 #include "volume/generate.h"
 
 namespace lamina {
@@ -33,8 +33,9 @@ double longest_chord(const Grid& grid, const View& view) {
     return longest;
 }
 
-void expect_exact_chords(const Volume& volume, const Pose& pose, const Capabilities& capabilities,
-                         const OmissionSwitch& omissions) {
+// `draw`: draws a scene of the volume.
+void expect_exact_chords(const Volume& volume, const Pose& pose,
+                         const std::function<Image(const Scene&)>& draw) {
     Scene scene = unit_box_scene(smooth_transfer_function(), pose.projection, 61, 47);
     scene.camera->eye = pose.eye;
     scene.camera->fov_y = pose.fov_y;
@@ -50,7 +51,7 @@ void expect_exact_chords(const Volume& volume, const Pose& pose, const Capabilit
             for (const Order order : {Order::back_to_front, Order::front_to_back}) {
                 scene.slice.samples = samples;
                 scene.slice.order = order;
-                const Image image = render(volume, scene, capabilities, omissions);
+                const Image image = draw(scene);
                 double worst = 0;
                 for (int row = 0; row < view.height; ++row) {
                     for (int column = 0; column < view.width; ++column) {
@@ -66,29 +67,33 @@ void expect_exact_chords(const Volume& volume, const Pose& pose, const Capabilit
     }
 }
 
-TEST_F(SlicingTest, HomogeneousBoxHasTheExactChordsOpacity) {
+TEST_P(BothEngines, HomogeneousBoxHasTheExactChordsOpacity) {
     const Volume volume =
         generate({"constant", std::array<std::int64_t, 3>{9, 12, 7}, SampleType::uint8});
-    for (const Pose& pose : poses) expect_exact_chords(volume, pose, capabilities(), {});
+    for (const Pose& pose : poses)
+        expect_exact_chords(volume, pose, [&](const Scene& scene) { return draw(volume, scene); });
 }
 
-TEST_F(SlicingTest, HomogeneousBoxIsExactWithNothingLeftOut) {
+TEST_P(BothEngines, HomogeneousBoxIsExactWithNothingLeftOut) {
     const Volume volume =
         generate({"constant", std::array<std::int64_t, 3>{9, 12, 7}, SampleType::uint8});
     for (const Pose& pose : {poses[1], poses[2]}) {
-        expect_exact_chords(volume, pose, capabilities(), leave_nothing_out());
+        expect_exact_chords(volume, pose, [&](const Scene& scene) {
+            return draw(volume, scene, leave_nothing_out());
+        });
     }
 }
 
 // A box one voxel thick, seen nearly edge-on: float32 coordinates of all of the box would lose its
 // chords.
-TEST_F(SlicingTest, ThinBoxesHaveTheExactChordsOpacity) {
+TEST_P(BothEngines, ThinBoxesHaveTheExactChordsOpacity) {
     const Volume volume =
         generate({"constant", std::array<std::int64_t, 3>{40, 1, 40}, SampleType::uint8});
     for (const double tilt : {.003, .05}) {
         for (const auto projection : {Projection::orthographic, Projection::perspective}) {
             const Pose pose{"thin", projection, {.4, .5 + 2 * tilt, 2.1}, 30};
-            expect_exact_chords(volume, pose, capabilities(), {});
+            expect_exact_chords(volume, pose,
+                                [&](const Scene& scene) { return draw(volume, scene); });
         }
     }
 }

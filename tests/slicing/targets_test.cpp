@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Render targets: the codes or values that one slab leaves in each, and both compositing orders.
 #include "base/error.h"
-#include "slicing_fixture.h"
+#include "engine_fixture.h"
 
 namespace lamina {
 namespace {
@@ -58,7 +58,7 @@ TEST_F(SlicingTest, BothOrdersGiveTheSamePicture) {
               255 * 150 * 1.2e-7);
 }
 
-TEST_F(SlicingTest, NanCellsAreTransparentIfAskedFor) {
+TEST_P(BothEngines, NanCellsAreTransparentIfAskedFor) {
     Grid grid = reference_test::make_grid({12, 12, 12}, Centering::node, glm::dvec3(1. / 11));
     std::vector<float> samples(12 * 12 * 12);
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(i % 12) / 11;
@@ -69,20 +69,17 @@ TEST_F(SlicingTest, NanCellsAreTransparentIfAskedFor) {
     scene.nan = NanPolicy::transparent;
     scene.slice.samples = 800;
     const Image reference = trace(volume, scene, 1e-6);
-    Capabilities fetching = capabilities();
-    fetching.exact_float_filter = false;
     for (const Classification classification :
          {Classification::post, Classification::preintegrated}) {
-        for (const Capabilities& can : {capabilities(), fetching}) {
+        for (const Capabilities& can : ways()) {
             scene.slice.classification = classification;
             // A segment across the border of a transparent cell is off by its own opacity: at most
             // extinction 6 over two segments of 1.8 / 800.
-            EXPECT_LE(image_error(render(volume, scene, can), reference).all.linf,
-                      255 * 6 * 4 * 1.8 / 800);
+            EXPECT_LE(linf(draw(volume, scene, {}, can), reference), 255 * 6 * 4 * 1.8 / 800);
         }
     }
     scene.nan = NanPolicy::error;
-    EXPECT_THROW(render(volume, scene, capabilities()), Error);
+    EXPECT_THROW(draw(volume, scene), Error);
 }
 
 }  // namespace
