@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "volume_files/numbered_files.h"
 #include "volume_files/stored_data.h"
 
 namespace lamina {
@@ -36,10 +37,8 @@ constexpr std::string_view role_words[role_count] = {
     " t nt time times time_counter timestep tspace frame frames batch "};
 
 // Returns a name in lower case, without what programs append to words for axes.
-std::string stem_of(std::string word) {
-    std::ranges::transform(word, word.begin(), [](unsigned char letter) {
-        return static_cast<char>(std::tolower(letter));
-    });
+std::string stem_of(const std::string& name) {
+    std::string word = lower_case(name);
     if (word.ends_with("_stag")) word.resize(word.size() - 5);  // WRF: between the cells
     while (word.size() > 1 &&
            (std::isdigit(static_cast<unsigned char>(word.back())) != 0 || word.back() == '_'))

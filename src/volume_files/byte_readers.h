@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lamina {
@@ -19,6 +20,16 @@ OpenedFile open_to_read(const std::filesystem::path& path, std::int64_t offset =
 
 // Returns the number of bytes from the current position of the file to its end.
 std::uint64_t bytes_left(std::FILE* file);
+
+// Returns the number that up to 8 bytes hold, the lowest first or, if `big_endian`, the highest.
+inline std::uint64_t number_of_bytes(std::string_view bytes, bool big_endian) {
+    std::uint64_t number = 0;
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        const char byte = bytes[big_endian ? i : bytes.size() - 1 - i];
+        number = number << 8 | static_cast<unsigned char>(byte);
+    }
+    return number;
+}
 
 // Reads the data of a file, decompressed, in order. All functions throw Error if the data have too
 // few bytes or are damaged. Long work ends when its client requests a stop (base/client.h).

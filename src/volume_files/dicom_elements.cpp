@@ -5,11 +5,11 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <span>
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "base/value_type.h"
 #include "volume_files/byte_readers.h"
 
 namespace lamina {
@@ -194,13 +194,7 @@ class ElementReader {
     }
 
     std::uint32_t number(std::size_t count) {
-        const std::string word = bytes(count);
-        std::uint32_t value = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t at = big_endian_ ? i : count - 1 - i;
-            value = value << 8 | static_cast<unsigned char>(word[at]);
-        }
-        return value;
+        return static_cast<std::uint32_t>(number_of_bytes(bytes(count), big_endian_));
     }
 
     DicomTag read_tag() {
@@ -348,21 +342,13 @@ class ElementReader {
 };
 
 // Returns the numbers of a binary value; none unless it consists of whole words.
-template <typename Word>
-std::vector<double> binary_numbers(std::string text, bool big_endian) {
-    std::vector<double> numbers;
-    if (text.size() % sizeof(Word) != 0) return numbers;
-    for (std::size_t at = 0; at < text.size(); at += sizeof(Word)) {
-        const auto begin = text.begin() + static_cast<std::ptrdiff_t>(at);
-        if (big_endian != (std::endian::native == std::endian::big))
-            std::reverse(begin, begin + sizeof(Word));
-        Word word;
-        std::memcpy(&word, text.data() + at, sizeof word);
-        const auto number = static_cast<double>(word);
-        if (!std::isfinite(number)) return {};
-        numbers.push_back(number);
-    }
-    return numbers;
+std::vector<double> binary_numbers(ValueType type, std::string_view bytes, bool big_endian) {
+    if (bytes.size() % bytes_of(type) != 0) return {};
+    auto numbers =
+        values_from_bytes<double>(type, bytes.data(), bytes.size() / bytes_of(type),
+                                  big_endian != (std::endian::native == std::endian::big));
+    const auto is_finite = [](double number) { return std::isfinite(number); };
+    return std::ranges::all_of(numbers, is_finite) ? numbers : std::vector<double>();
 }
 
 // Returns the digits of a time as a number, such as 93015.5 for "093015.5". From those of a date
@@ -426,9 +412,9 @@ std::string DicomElements::text(DicomTag tag, std::size_t frame) const {
 
 std::vector<double> DicomElements::numbers_of(DicomTag tag, const std::string* value) const {
     if (value == nullptr) return {};
-    if (is_in(as_us, tag)) return binary_numbers<std::uint16_t>(*value, big_endian);
-    if (is_in(as_ul, tag)) return binary_numbers<std::uint32_t>(*value, big_endian);
-    if (is_in(as_fd, tag)) return binary_numbers<double>(*value, big_endian);
+    if (is_in(as_us, tag)) return binary_numbers(ValueType::uint16, *value, big_endian);
+    if (is_in(as_ul, tag)) return binary_numbers(ValueType::uint32, *value, big_endian);
+    if (is_in(as_fd, tag)) return binary_numbers(ValueType::float64, *value, big_endian);
     return is_in(as_time, tag) ? time_of(*value) : dicom_numbers(*value);
 }
 
@@ -445,7 +431,8 @@ std::vector<double> DicomElements::number_of_frame(DicomTag tag, std::size_t fra
                                                    std::size_t frames) const {
     const std::string* const value = find(tag);
     if (value == nullptr || value->size() != 2 * frames) return {};
-    return binary_numbers<std::uint16_t>(value->substr(2 * frame, 2), big_endian);
+    return binary_numbers(ValueType::uint16, std::string_view(*value).substr(2 * frame, 2),
+                          big_endian);
 }
 
 std::optional<double> DicomElements::number(DicomTag tag, std::size_t frame) const {

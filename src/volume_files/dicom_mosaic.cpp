@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "volume_files/byte_readers.h"
 
 namespace lamina {
 namespace {
@@ -61,12 +62,7 @@ class CsaReader {
                              static_cast<std::size_t>(count));
     }
 
-    std::int64_t word() {
-        const std::string_view four = take(4);
-        std::uint32_t value = 0;
-        for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(four[i]);
-        return static_cast<std::int32_t>(value);
-    }
+    std::int64_t word() { return static_cast<std::int32_t>(number_of_bytes(take(4), false)); }
 
     // Returns a text up to its first zero byte.
     static std::string_view text(std::string_view bytes) {

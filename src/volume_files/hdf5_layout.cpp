@@ -6,11 +6,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
 #include "base/error.h"
+#include "volume_files/numbered_files.h"
 #include "volume_files/stored_data.h"
 
 namespace lamina {
@@ -89,15 +89,13 @@ class ImarisReader {
     }
     double number(const std::string& group, const std::string& key) const {
         const std::string text = text_of(group_of(files_, group).id(), key);
-        double value = 0;
         // text_of() has left out zero bytes at the end; blanks may fill it up, too.
-        const std::size_t length = text.find_last_not_of(' ') + 1;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + length, value);
-        if (error != std::errc{} || end != text.data() + length || !(std::abs(value) < 1e12)) {
+        const auto value = number_in<double>(text.substr(0, text.find_last_not_of(' ') + 1));
+        if (!value || !(std::abs(*value) < 1e12)) {
             fail("{}:{}: {}: found \"{}\", expected a number", files_.name(), group, key,
                  one_line(text));
         }
-        return value;
+        return *value;
     }
 
     std::array<std::int64_t, 3> size(const std::string& group) const {

@@ -139,11 +139,7 @@ class NetcdfFile {
         at_ += bytes;
         return buffer_.substr(at_ - bytes - buffer_begin_, bytes);
     }
-    std::uint64_t number(std::size_t bytes) {
-        std::uint64_t value = 0;
-        for (const char byte : text(bytes)) value = value << 8 | static_cast<unsigned char>(byte);
-        return value;
-    }
+    std::uint64_t number(std::size_t bytes) { return number_of_bytes(text(bytes), true); }
     // A count, or an index (NON_NEG in the specification).
     std::uint64_t count() { return number(version_ == 5 ? 8 : 4); }
     std::string padded_text(std::uint64_t bytes) {

@@ -5,7 +5,6 @@
 #include <teem/nrrd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -337,10 +336,8 @@ bool is_remark(const std::string& line) {
 std::optional<Field> field_of(const std::string& line) {
     const auto colon = line.find(':');
     if (colon == std::string::npos || is_remark(line)) return {};
-    std::string name = without_blanks(line.substr(0, colon));
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return Field{name, without_blanks(line.substr(colon + 1))};
+    return Field{lower_case(without_blanks(line.substr(0, colon))),
+                 without_blanks(line.substr(colon + 1))};
 }
 
 [[noreturn]] void fail_at(const std::string& path, int line, const Field& field,
@@ -391,10 +388,8 @@ void check_number(const std::string& path, int line, const Field& field) {
     const auto limit = std::ranges::find_if(
         limits, [&](const Limits& one) { return one.names.contains(field.name); });
     if (limit == limits.end()) return;
-    std::int64_t number = 0;
-    const char* const end = field.value.data() + field.value.size();
-    const auto [stop, error] = std::from_chars(field.value.data(), end, number);
-    if (error != std::errc{} || stop != end || number < limit->least || number > limit->most)
+    const auto number = whole_number(field.value);
+    if (!number || *number < limit->least || *number > limit->most)
         fail_at(path, line, field, limit->expected);
 }
 
@@ -530,11 +525,8 @@ std::optional<double> segment_opacity(const std::string& text) {
 // Returns the number of a label in canonical digits; nothing if it is none.
 std::optional<std::string> label_number(const std::string& digits) {
     if (const auto number = whole_number(digits)) return std::to_string(*number);
-    std::uint64_t number = 0;
-    const char* const end = digits.data() + digits.size();
-    const auto [stop, error] = std::from_chars(digits.data(), end, number);
-    if (error != std::errc{} || stop != end) return {};
-    return std::to_string(number);
+    if (const auto number = number_in<std::uint64_t>(digits)) return std::to_string(*number);
+    return {};
 }
 
 // Takes the labels of a segmentation of 3D Slicer in the layer (channel) that is read, and what

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -65,6 +66,12 @@ struct NameParts {
 };
 
 }  // namespace
+
+std::string lower_case(std::string text) {
+    for (char& letter : text)
+        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    return text;
+}
 
 std::vector<std::string> words_of(const std::string& text) {
     std::istringstream stream(text);

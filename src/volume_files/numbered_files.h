@@ -11,14 +11,21 @@
 
 namespace lamina {
 
-// Returns the number if the word is a whole number and nothing else.
-inline std::optional<std::int64_t> whole_number(std::string_view word) {
-    std::int64_t number = 0;
+// Returns the number that all of a word is; nothing if it is none of this type.
+template <typename Number>
+std::optional<Number> number_in(std::string_view word) {
+    Number number{};
     const char* const end = word.data() + word.size();
     const auto [stop, error] = std::from_chars(word.data(), end, number);
     if (error != std::errc{} || stop != end) return {};
     return number;
 }
+
+inline std::optional<std::int64_t> whole_number(std::string_view word) {
+    return number_in<std::int64_t>(word);
+}
+
+std::string lower_case(std::string text);
 
 std::vector<std::string> words_of(const std::string& text);
 

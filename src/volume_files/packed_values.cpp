@@ -4,13 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <type_traits>
 
 #include "base/error.h"
+#include "volume_files/numbered_files.h"
 #include "volume_files/stored_samples.h"
 
 namespace lamina {
@@ -46,9 +45,7 @@ bool is_there(const PackedAttribute& found) {
 // Data"). Programs write "true" and "false" with small and capital letters.
 ValueType PackedValues::with_sign_of(ValueType type, const PackedAttribute& told) const {
     if (!is_there(told)) return type;
-    std::string small = told.text;
-    for (char& letter : small)
-        letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    const std::string small = lower_case(told.text);
     if (small != "true" && small != "false") {
         fail("{}: _Unsigned: found {}, expected \"true\" or \"false\"", name_, found_text(told));
     }
@@ -89,13 +86,11 @@ void PackedValues::read_missing(ValueType type, bool has_defaults, const Attribu
     for (const char* const key : {"_FillValue", "missing_value"}) {
         PackedAttribute found = attribute(key);
         if (found.numbers.empty() && !found.text.empty()) {  // a number as text
-            const char* const end = found.text.data() + found.text.size();
-            const auto [stop, error] =
-                std::from_chars(found.text.data(), end, found.numbers.emplace_back());
-            if (error != std::errc{} || stop != end) {
+            const auto number = number_in<double>(found.text);
+            if (!number)
                 fail("{}: {}: found \"{}\", expected a number", name_, key,
                      shortened(one_line(found.text)));
-            }
+            found.numbers = {*number};
         }
         has_defaults &= key != std::string_view("_FillValue") || found.numbers.empty();
         for (const double value : found.numbers)

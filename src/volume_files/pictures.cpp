@@ -59,9 +59,7 @@ struct PictureNotes {
 
 // Returns the number that bytes hold, the highest first.
 std::int64_t big_number(std::string_view bytes) {
-    std::int64_t number = 0;
-    for (const char byte : bytes) number = number << 8 | static_cast<unsigned char>(byte);
-    return number;
+    return static_cast<std::int64_t>(number_of_bytes(bytes, true));
 }
 
 // Notes how far pixels of so many a length along x and y are from squares.
@@ -75,9 +73,8 @@ void note_densities(std::int64_t x, std::int64_t y, PictureNotes& notes) {
 // Notes the Orientation in EXIF data, which have the form of a TIFF file (CIPA DC-008, 4.6.4).
 void note_orientation(std::string_view exif, PictureNotes& notes) {
     const auto number = [&](std::size_t at, std::size_t count) {
-        std::string bytes(exif.substr(std::min(at, exif.size()), count));
-        if (exif.starts_with("II")) std::ranges::reverse(bytes);
-        return static_cast<std::size_t>(big_number(bytes));
+        return number_of_bytes(exif.substr(std::min(at, exif.size()), count),
+                               !exif.starts_with("II"));
     };
     constexpr std::size_t entry_bytes = 12, orientation = 0x0112;
     const std::size_t first = number(4, 4), count = number(first, 2);

@@ -2,7 +2,6 @@
 #include "volume_files/tiff_description.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -216,10 +215,7 @@ nlohmann::json tifffile_json(const std::string& text) {
 
 // Warns of a description by another program if it may speak of distances or of the order of pages.
 void warn_of_unknown(const TiffBeginning& first) {
-    std::string text = one_line(first.description);
-    std::ranges::transform(text, text.begin(), [](unsigned char letter) {
-        return static_cast<char>(std::tolower(letter));
-    });
+    const std::string text = lower_case(one_line(first.description));
     for (const char* const word : {"spacing", "pixelsize", "pixel size", "voxel", "calibration",
                                    "channel", "slice", "frame", "<?xml"}) {
         if (text.find(word) == std::string::npos) continue;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <glm/geometric.hpp>
 
 #include "base/client.h"
@@ -14,6 +13,7 @@
 #include "volume_files/array_axes.h"
 #include "volume_files/bricked_copy.h"
 #include "volume_files/foreign_files.h"
+#include "volume_files/numbered_files.h"
 #include "volume_files/volume_formats.h"
 
 namespace lamina {
@@ -114,10 +114,7 @@ constexpr VolumeFormat formats[] = {
      true}};
 
 bool has_extension(const VolumeFormat& format, const Path& path) {
-    std::string name = path.filename().string();
-    std::ranges::transform(name, name.begin(), [](unsigned char letter) {
-        return static_cast<char>(std::tolower(letter));
-    });
+    const std::string name = lower_case(path.filename().string());
     return std::ranges::any_of(format.extensions, [&](const char* extension) {
         return extension != nullptr && name.size() > std::string_view(extension).size() &&
                name.ends_with(extension);

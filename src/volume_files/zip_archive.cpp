@@ -27,10 +27,7 @@ constexpr std::size_t zip_step_bytes = std::size_t{1} << 20;  // read between lo
 
 // Returns the number that `count` bytes from `at` on hold, the lowest first. They must be there.
 std::uint64_t zip_number(std::string_view bytes, std::size_t at, std::size_t count) {
-    std::uint64_t number = 0;
-    for (std::size_t i = count; i-- > 0;)
-        number = number << 8 | static_cast<unsigned char>(bytes[at + i]);
-    return number;
+    return number_of_bytes(bytes.substr(at, count), false);
 }
 
 // Reads an entry of the directory (APPNOTE 4.3.12). `extra`: its extra fields, of which that of
