@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "volume/cells_example.h"
+#include "volume/examples.h"
 
 #include <algorithm>
 #include <array>

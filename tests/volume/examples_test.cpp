@@ -9,9 +9,7 @@
 #include <set>
 
 #include "support/samples_of.h"
-#include "volume/cells_example.h"
-#include "volume/head_example.h"
-#include "volume/jet_example.h"
+#include "volume/examples.h"
 
 namespace lamina {
 namespace {

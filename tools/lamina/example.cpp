@@ -13,9 +13,7 @@
 #include "mesh/flow_example.h"
 #include "mesh_files/mesh_file.h"
 #include "verbs.h"
-#include "volume/cells_example.h"
-#include "volume/head_example.h"
-#include "volume/jet_example.h"
+#include "volume/examples.h"
 #include "volume/nrrd_writer.h"
 
 namespace lamina {
