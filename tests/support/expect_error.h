@@ -22,15 +22,19 @@ std::string error_of(const Action& action) {
     return {};
 }
 
+inline void expect_says(const std::string& message, std::initializer_list<std::string> parts) {
+    for (const std::string& part : parts) {
+        EXPECT_NE(message.find(part), std::string::npos)
+            << "'" << part << "' is not in: " << message;
+    }
+}
+
 // Expects an Error of one line that has all of `parts` in it.
 template <typename Action>
 void expect_error(const Action& action, std::initializer_list<std::string> parts) {
     const std::string message = error_of(action);
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    for (const std::string& part : parts) {
-        EXPECT_NE(message.find(part), std::string::npos)
-            << "'" << part << "' is not in: " << message;
-    }
+    expect_says(message, parts);
 }
 
 }  // namespace lamina

@@ -11,7 +11,6 @@ namespace lamina {
 namespace {
 
 using testing::bytes_of_values;
-using testing::expect_says;
 using testing::gzip;
 using testing::samples_of;
 using Samples = std::vector<std::uint8_t>;

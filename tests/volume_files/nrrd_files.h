@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
+#include "support/expect_error.h"
 #include "support/samples_of.h"
 #include "support/temporary_folder.h"
 #include "volume/nrrd_writer.h"
@@ -70,23 +70,9 @@ inline std::string bzip2(const std::string& bytes) {
     return packed;
 }
 
-// Returns open_nrrd()'s error about a file. If it reads the file, the test fails.
-inline std::string error_of(const std::filesystem::path& path) {
-    try {
-        open_nrrd(path);
-    } catch (const Error& error) {
-        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-        return error.what();
-    }
-    ADD_FAILURE() << path << " was read without an error";
-    return "";
-}
-
-inline void expect_says(const std::string& message, std::initializer_list<std::string> parts) {
-    for (const std::string& part : parts) {
-        EXPECT_NE(message.find(part), std::string::npos)
-            << "'" << part << "' is not in: " << message;
-    }
+inline void expect_bad(const std::filesystem::path& path,
+                       std::initializer_list<std::string> parts) {
+    expect_error([&] { open_nrrd(path); }, parts);
 }
 
 }  // namespace lamina::testing
