@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <vector>
 
 #include "volume/volume_store.h"
 

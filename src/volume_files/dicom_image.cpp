@@ -11,7 +11,6 @@
 
 #include "base/content_hash.h"
 #include "base/error.h"
-#include "base/input_file.h"
 #include "volume_files/byte_readers.h"
 #include "volume_files/dicom_places.h"
 #include "volume_files/stored_samples.h"

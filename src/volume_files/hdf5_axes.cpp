@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "base/error.h"
-#include "base/input_file.h"
 #include "base/json_text.h"
 #include "volume_files/hdf5_layout.h"
 

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <set>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "volume_files/volume_formats.h"

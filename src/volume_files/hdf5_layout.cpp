@@ -3,8 +3,6 @@
 // VTKHDF: docs.vtk.org, "VTKHDF format specification". ITK: itkHDF5ImageIO.cxx.
 #include "volume_files/hdf5_layout.h"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -9,7 +9,6 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
-#include "base/memory.h"
 #include "volume_files/isolated_process.h"
 #include "volume_files/numbered_files.h"
 #include "volume_files/tiff_description.h"

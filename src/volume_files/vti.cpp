@@ -5,7 +5,6 @@
 #include <set>
 #include <sstream>
 
-#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "mesh_files/mesh_formats.h"

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "base/client.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cpu engine's codes equal those of OpenGL's shaders and blending, pixel by pixel, and those of
 // the core (src/compositing).
-#include <algorithm>
 
 #include "compositing/codes.h"
 #include "compositing/fixed_ray.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compositing trees in the cpu engine, against OpenGL's and against straight compositing.
-#include <algorithm>
 
 #include "cpu_fixture.h"
 

@@ -3,7 +3,6 @@
 // part of the picture.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <random>
 
 #include "engine_fixture.h"

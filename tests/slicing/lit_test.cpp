@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "engine_fixture.h"
 #include "plan/choices.h"
 #include "reference/lit_fixtures.h"

@@ -3,7 +3,6 @@
 // these.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "cpu_fixture.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Functions that exist both in GLSL and in C++ give the same numbers.
-#include <cmath>
 
 #include "gl/framebuffer.h"
 #include "optics/opacity.h"

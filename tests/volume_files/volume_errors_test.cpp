@@ -3,8 +3,6 @@
 // and what was expected. The good files come from the fuzz targets' corpora.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "corpus_files.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
