@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Attributes and dimension scales of HDF5 describe an array's axes: HDF5's "Dimension Scale" and
 // "Image and Palette" specifications, vigra's axistags, xarray's and N5's attributes.
+#include <fmt/ranges.h>
 #include <hdf5_hl.h>
 
 #include <algorithm>
