@@ -98,7 +98,7 @@ TEST(StatsPage, HasTheKeysOfTheSources) {
     for (const char* const file :
          {"src/render/scene_data.cpp", "src/render/scene_renderer.cpp", "src/render/pipeline.cpp",
           "tools/lamina/render_stats.cpp", "tools/lamina/render_output.cpp",
-          "tools/lamina/turntable.cpp", "tools/lamina/time_series.cpp"}) {
+          "tools/lamina/picture_series.cpp"}) {
         const std::string text = read_bytes_of(source / file);
         for (std::sregex_iterator m(text.begin(), text.end(), key), end; m != end; ++m)
             found.insert((*m)[1].matched ? (*m)[1].str() : (*m)[2].str());

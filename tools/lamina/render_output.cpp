@@ -13,8 +13,7 @@
 #include "image/exr.h"
 #include "image/npy.h"
 #include "image/png.h"
-#include "time_series.h"
-#include "turntable.h"
+#include "picture_series.h"
 
 namespace lamina {
 namespace {
@@ -149,10 +148,8 @@ void OutputOptions::check() const {
     if (!format.empty() && output.empty()) throw UsageError("--format: expected -o -, too");
     if (film) {
         Film::check(*this);
-    } else if (views > 0 || !path.empty()) {
-        Turntable::check(*this);
-    } else if (!output.empty() && time) {
-        TimeSeries::check(*this);
+    } else if (views > 0 || !path.empty() || (!output.empty() && time)) {
+        NumberedPictures::check(*this);
     } else if (!output.empty()) {
         picture_format(output, format);
     }
