@@ -3,10 +3,8 @@
 
 #include "lamina/scene.h"
 #include "model/frame_history.h"
-#include "panels/attempts_panel.h"
-#include "panels/comparison_panel.h"
-#include "panels/factors_panel.h"
 #include "panels/picture_panels.h"
+#include "panels/precision_panels.h"
 #include "view/headless_imgui.h"
 
 namespace lamina::view {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "panels/attempts_panel.h"
-#include "panels/comparison_panel.h"
-#include "panels/factors_panel.h"
 #include "panels/panel.h"
 #include "panels/picture_panels.h"
+#include "panels/precision_panels.h"
 #include "panels/settings_panel.h"
 #include "panels/transfer_panel.h"
 
