@@ -53,6 +53,8 @@ struct LAMINA_API Grid {
     VolumeLookup lookup = VolumeLookup::linear;
 
     std::int64_t sample_count() const { return size[0] * size[1] * size[2]; }
+    // Returns the index of sample 0, along each axis: the middle of its voxel if lookup is nearest.
+    double first_sample() const { return lookup == VolumeLookup::nearest ? 0.5 : 0.0; }
     glm::dvec3 index_min() const;  // lowest corner of the box, index space
     glm::dvec3 index_max() const;
     glm::dvec3 index_origin() const;  // world position of index (0, 0, 0)

@@ -170,15 +170,14 @@ std::vector<glm::dvec3> kept_of(const std::vector<glm::dvec3>& pairs, const Half
 template <typename Sample, typename Visit>
 void visit_kept(const SampleWindow<Sample>& window, const Grid& grid, std::int64_t y,
                 std::int64_t z, std::span<const IndexPlane> planes, const Visit& visit) {
-    const bool nearest = grid.lookup == VolumeLookup::nearest;
-    const double samples = nearest ? 0.5 : 1, first_sample = nearest ? 0.5 : 0;  // as Grid has it
+    const double samples = grid.lookup == VolumeLookup::nearest ? 0.5 : 1;
     // Samples of the row between which no plane cuts all away that one reaches: the distance of the
     // farthest corner is linear along the row.
     double first = 0, last = static_cast<double>(grid.size[0] - 1);
     for (const IndexPlane& plane : planes) {
         const glm::dvec3 n = plane.normal, reach = samples * glm::abs(n);
         const double at =
-            plane.distance(glm::dvec3(0, y, z) + first_sample) + reach.x + reach.y + reach.z;
+            plane.distance(glm::dvec3(0, y, z) + grid.first_sample()) + reach.x + reach.y + reach.z;
         if (n.x > 0) first = std::max(first, std::floor(-at / n.x) + 1);
         if (n.x < 0) last = std::min(last, std::ceil(-at / n.x) - 1);
         if (n.x == 0 && at <= 0) last = -1;

@@ -15,15 +15,10 @@ bool spans_voxels(const Grid& grid, int axis) {
     return grid.size[axis] == 1 || grid.centering[axis] == Centering::cell;
 }
 
-// Returns the index of sample 0, along each axis: the middle of its voxel if lookup is nearest.
-double first_sample(const Grid& grid) {
-    return grid.lookup == VolumeLookup::nearest ? 0.5 : 0.0;
-}
-
 }  // namespace
 
 glm::dvec3 Grid::index_min() const {
-    glm::dvec3 corner{first_sample(*this)};
+    glm::dvec3 corner{first_sample()};
     for (int axis = 0; axis < 3; ++axis) corner[axis] -= spans_voxels(*this, axis) ? 0.5 : 0.0;
     return corner;
 }
@@ -31,7 +26,7 @@ glm::dvec3 Grid::index_min() const {
 glm::dvec3 Grid::index_max() const {
     glm::dvec3 corner{0};
     for (int axis = 0; axis < 3; ++axis) {
-        const double last = static_cast<double>(size[axis] - 1) + first_sample(*this);
+        const double last = static_cast<double>(size[axis] - 1) + first_sample();
         corner[axis] = spans_voxels(*this, axis) ? last + 0.5 : last;
     }
     return corner;
@@ -39,7 +34,7 @@ glm::dvec3 Grid::index_max() const {
 
 glm::dvec3 Grid::index_origin() const {
     if (lookup == VolumeLookup::linear) return origin;
-    return origin - first_sample(*this) * (step[0] + step[1] + step[2]);
+    return origin - first_sample() * (step[0] + step[1] + step[2]);
 }
 
 glm::dvec3 Grid::to_world(const glm::dvec3& index) const {
