@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -20,6 +22,12 @@ using WarningTaker = std::function<void(const std::string&)>;
 // Reports something in a user's data that is no error, to the client that this thread works for:
 // the text names the file, what was found and what was expected. Safe from any thread.
 void warn(const std::string& text);
+
+// Formats a warning as fail() formats an error.
+template <typename... Args>
+void say(fmt::format_string<Args...> format, Args&&... args) {
+    warn(fmt::format(format, std::forward<Args>(args)...));
+}
 
 // Receives the progress of long work: a name ("slicing") and the share done, 0 to 1, from one
 // thread at a time. If Progress objects are nested, only the outermost reports.

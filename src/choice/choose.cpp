@@ -141,10 +141,9 @@ void warn_of_background(const VolumeLabels& labels, const ValueDistribution& val
         if (++count <= 8) numbers += (count == 1 ? "" : ", ") + label.number;
     }
     if (count == 0) return;
-    warn(
-        fmt::format("{}: the file gives the background's colour to {} of its labels ({}{}), which "
-                    "hide others but cannot be seen",
-                    name_of_data(scene), count, numbers, count > 8 ? ", ..." : ""));
+    say("{}: the file gives the background's colour to {} of its labels ({}{}), which "
+        "hide others but cannot be seen",
+        name_of_data(scene), count, numbers, count > 8 ? ", ..." : "");
 }
 
 AutomaticTransfer chosen_function(const Scene& scene, const TransferSubject& subject,
@@ -158,7 +157,7 @@ AutomaticTransfer chosen_function(const Scene& scene, const TransferSubject& sub
         chosen.transfer_function = displayed(chosen.transfer_function);
     if (field.labels() != nullptr && !adjustments.colormap)
         warn_of_background(*field.labels(), values, scene);
-    if (!chosen.padding.empty()) warn(fmt::format("{}: {}", name_of_data(scene), chosen.padding));
+    if (!chosen.padding.empty()) say("{}: {}", name_of_data(scene), chosen.padding);
     return chosen;
 }
 

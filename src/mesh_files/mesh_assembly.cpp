@@ -358,10 +358,9 @@ MeshData MeshAssembly::finish() {
     }
     if (mesh_.tets.empty()) fail("{}: found no cells", file_);
     if (near_.moved() > 0) {
-        warn(
-            fmt::format("{}: mesh.join: {} points took the place of an earlier one, up to {:.3g} "
-                        "away",
-                        file_, near_.moved(), near_.farthest()));
+        say("{}: mesh.join: {} points took the place of an earlier one, up to {:.3g} "
+            "away",
+            file_, near_.moved(), near_.farthest());
     }
     if (mesh_.cells.split + mesh_.cells.straightened == 0) mesh_.cell_of_tet = {};
     return std::move(mesh_);

@@ -105,8 +105,7 @@ inline std::string next_word(TextReader reader) {
 inline void warn_of_surplus(const std::string& what, std::string_view text, const char* behind) {
     const auto surplus = std::ranges::count_if(text, std::not_fn(TextReader::is_blank));
     if (surplus == 0) return;
-    warn(fmt::format("{}: found {} bytes behind {}, expected none: they are not used", what,
-                     surplus, behind));
+    say("{}: found {} bytes behind {}, expected none: they are not used", what, surplus, behind);
 }
 
 // Returns the name that VTK XML files give a type: "Float32".

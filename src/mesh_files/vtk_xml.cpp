@@ -274,10 +274,9 @@ ByteBuffer read_compressed(EncodedBytes& bytes, const VtkXmlEncoding& encoding,
         surplus += packed.size() - static_cast<std::size_t>(used);
     }
     if (surplus > 0) {
-        warn(
-            fmt::format("{}: found {} bytes behind the {} data of its {} blocks, expected none: "
-                        "they are not used",
-                        what, surplus, compressor->word, blocks.size()));
+        say("{}: found {} bytes behind the {} data of its {} blocks, expected none: "
+            "they are not used",
+            what, surplus, compressor->word, blocks.size());
     }
     return values;
 }

@@ -192,10 +192,9 @@ void warn_of_colors(const Scene& scene, const ValueRange& range) {
     const ValueRange colors{knots[first].value, knots[last].value};
     if (first == last || range.lo == range.hi || (colors.hi > range.lo && colors.lo < range.hi))
         return;
-    warn(
-        fmt::format("{}: the transfer function's colours change from {}, and the data have {}: "
-                    "they all get one colour",
-                    name_of_scene(scene), range_text(colors), range_text(range)));
+    say("{}: the transfer function's colours change from {}, and the data have {}: "
+        "they all get one colour",
+        name_of_scene(scene), range_text(colors), range_text(range));
 }
 
 // Tells whether a transfer function has the colours of another one, to a 1000th of a code.
@@ -216,7 +215,7 @@ void warn_of_units(const Scene& scene, const ValueRange& range) {
     if (given->colormap_range.is_given() || !is_colormap_name(given->colormap)) return;
     const auto mistake = mistake_in_hounsfield_units(range, *given->map, given->colormap);
     if (mistake && has_colors_of(*scene.transfer_function, transfer_function_of(*given)))
-        warn(fmt::format("{}.colormap: {}", given->place, *mistake));
+        say("{}.colormap: {}", given->place, *mistake);
 }
 
 }  // namespace
@@ -318,14 +317,13 @@ void warn_of_picture(const Scene& scene, const Field& field, const Image& pictur
     warn_of_units(scene, field.range());
     if (shown > 0) warn_of_colors(scene, field.range());
     if (shown == 0) {
-        warn(fmt::format("{}: the picture shows nothing: {}", name_of_scene(scene),
-                         why_nothing_shows(scene, field, largest)));
+        say("{}: the picture shows nothing: {}", name_of_scene(scene),
+            why_nothing_shows(scene, field, largest));
     } else if (2 * saturated > shown) {
-        warn(
-            fmt::format("{}: {:.0f} % of the pixels that show something are saturated: less "
-                        "extinction or darker colours would show more of the data",
-                        name_of_scene(scene),
-                        100 * static_cast<double>(saturated) / static_cast<double>(shown)));
+        say("{}: {:.0f} % of the pixels that show something are saturated: less "
+            "extinction or darker colours would show more of the data",
+            name_of_scene(scene),
+            100 * static_cast<double>(saturated) / static_cast<double>(shown));
     }
 }
 

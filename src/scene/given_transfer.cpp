@@ -107,11 +107,10 @@ TransferFunction over_codes(const TransferFunction& function, const Volume& volu
     }
     if (const auto same = std::ranges::adjacent_find(numbers); same != numbers.end()) {
         const auto place = static_cast<std::size_t>(same - numbers.begin());
-        warn(
-            fmt::format("transfer_function: values are doubles, which do not tell labels {} and {} "
-                        "apart: with \"codes\" values are places of labels in the list of lamina "
-                        "info, from 0",
-                        labels[place].number, labels[place + 1].number));
+        say("transfer_function: values are doubles, which do not tell labels {} and {} "
+            "apart: with \"codes\" values are places of labels in the list of lamina "
+            "info, from 0",
+            labels[place].number, labels[place + 1].number);
     }
     return TransferFunction::nearest(points).with_codes(identity);
 }

@@ -223,7 +223,7 @@ void keep(const Volume& volume, const VolumeIndex& index, const std::filesystem:
         make_folder(file.parent_path());
         write_index(volume, index, file);
     } catch (const Error& error) {
-        warn(fmt::format("the index is not kept: {}", error.what()));
+        say("the index is not kept: {}", error.what());
     }
 }
 
@@ -252,8 +252,7 @@ VolumeIndex index_of(const Volume& volume) {
     for (const std::filesystem::path& file : {index_file_of(volume), cached}) {
         FoundIndex found = read_index_file(file, identity, volume.grid(), volume.type());
         if (found.index) return std::move(*found.index);
-        if (!found.wrong.empty())
-            warn(fmt::format("{}: {}, and is made again", file.string(), found.wrong));
+        if (!found.wrong.empty()) say("{}: {}, and is made again", file.string(), found.wrong);
     }
     VolumeIndex index = measure_index(volume);
     keep(volume, index, cached);

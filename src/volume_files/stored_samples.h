@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "base/client.h"
 #include "base/value_type.h"
@@ -16,12 +13,6 @@
 #include "volume/labels.h"
 
 namespace lamina {
-
-// Formats a warning (base/client.h), as fail() formats an error.
-template <typename... Args>
-void say(fmt::format_string<Args...> format, Args&&... args) {
-    warn(fmt::format(format, std::forward<Args>(args)...));
-}
 
 // The samples that a reader has read from a file, x fastest, in native byte order. Their values are
 // scale * sample + offset, computed in double precision.

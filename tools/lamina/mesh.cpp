@@ -107,10 +107,9 @@ Volume read_field(const std::string& file, VolumeRequest request) {
     }
     volume.reset();
     request.lookup = VolumeLookup::linear;
-    warn(
-        fmt::format("{}: its samples are labels, and the mesh interpolates between their numbers, "
-                    "so that it has values that are none",
-                    file));
+    say("{}: its samples are labels, and the mesh interpolates between their numbers, "
+        "so that it has values that are none",
+        file);
     return read_volume(file, request);
 }
 
