@@ -21,6 +21,9 @@ from ._plain import plain
 from ._volume import Path, Volume, folder_name
 from ._words import WORDS
 
+# Suffixes of pictures and of data, which people mean for Picture.save() and Volume.save().
+_NO_SCENES = (".png", ".exr", ".npy", ".jpg", ".jpeg", ".tif", ".tiff", ".nrrd", ".vtu")
+
 
 class Scene(dict[str, Any]):
     """A scene file's keys, and the data in memory that it draws, if any.
@@ -68,6 +71,8 @@ class Scene(dict[str, Any]):
         """Writes a scene file from which the command line draws the same. Data that are in memory alone go beside it
         (``.nrrd``, ``.vtu``)."""
         path = pathlib.Path(file)
+        if path.suffix.lower() in _NO_SCENES:
+            raise Error(f"{path}: found the suffix \"{path.suffix}\", expected a name as s.json: a scene is JSON")
         document = dict(self)
         if isinstance(self.data, Volume):
             document["volume"] = self.data._source or str(_kept(self.data, path.with_suffix(".nrrd")))

@@ -271,6 +271,17 @@ TEST_F(FirstPicture, OddDataGiveAPictureOrOneLine) {
     EXPECT_FALSE(std::filesystem::exists(folder / "x.json"));
 }
 
+TEST_F(FirstPicture, AreNotScenes) {
+    const std::string volume = generated("gaussians");
+    for (const char* const name : {"s.png", "s.EXR", "s.jpg", "s.mp4"}) {
+        const ProgramResult result = lamina_run({"scene", volume, "-o", folder / name});
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_NE(result.err.find("is a picture's name, and a scene is JSON"), std::string::npos)
+            << result.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / name));
+    }
+}
+
 TEST_F(FirstPicture, ATurntableIsFittedAllAround) {
     // A rod, seen from its end in the first view.
     std::string values;

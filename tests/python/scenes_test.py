@@ -113,6 +113,9 @@ def test_nothing_half_is_left(blob, tmp_path):
     (tmp_path / "folder").mkdir()
     with pytest.raises(lamina.Error, match="folder: cannot write"):
         lamina.Scene(SCENE).save(tmp_path / "folder")
+    with pytest.raises(lamina.Error, match=r's\.png: found the suffix "\.png", expected a name as s\.json'):
+        lamina.Scene(SCENE).save(tmp_path / "s.png")
+    assert not (tmp_path / "s.png").exists()
     assert [file.name for file in tmp_path.iterdir()] == ["folder"]
 
 
