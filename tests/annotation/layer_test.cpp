@@ -46,6 +46,17 @@ TEST(AnnotationLayer, IsThereOnlyIfSomethingIsWanted) {
     EXPECT_EQ(layer->height, 200);
 }
 
+TEST(AnnotationLayer, HasNoColorBarIfNothingShows) {
+    Scene scene = plain_scene();
+    scene.annotations.colorbar = Annotation{};
+    AnnotatedData data = plain_data();
+    data.range = {-3, -1};
+    const test::HeardWarnings heard;
+    const auto layer = annotation_layer(scene, data, Image(300, 200));
+    EXPECT_TRUE(std::ranges::all_of(layer->rgba, [](float number) { return number == 0; }));
+    EXPECT_NE(heard.all().find("shows none of the data's values"), std::string::npos);
+}
+
 // The contrast ratio of WCAG 2 between ink and background; it asks for 3 of large text.
 TEST(AnnotationLayer, InkIsReadableOnEveryBackground) {
     for (int red = 0; red <= 255; red += 51) {
