@@ -190,6 +190,8 @@ std::shared_ptr<const Image> annotation_layer(const Scene& scene, const Annotate
     };
     std::vector<Block> blocks = blocks_of(pen, scene, data);
     warn_of_misfits(take_misfits(blocks, style), style);
+    for (const Block& block : blocks)
+        if (!block.note.empty()) warn(block.note);
     const std::vector<Rectangle> places = placed(blocks, style);
     if (scene.annotations.box) {
         std::vector<Rectangle> taken = places;

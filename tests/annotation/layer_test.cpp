@@ -149,7 +149,12 @@ TEST(AnnotationLayer, SaysWhatItCannotShow) {
     EXPECT_EQ(said(scene, plain_data()), "");
     scene.annotations.title = titled("Schädel, von vorn und von oben");
     scene.annotations.title->size = 4;
-    EXPECT_NE(said(scene, plain_data()).find("image.annotations.title"), std::string::npos);
+    EXPECT_NE(said(scene, plain_data())
+                  .find("title: is too long for a picture 300 pixels wide, "
+                        "and is written smaller"),
+              std::string::npos);
+    scene.annotations.title = titled(std::string(200, 'x') + "\nshort");
+    EXPECT_NE(said(scene, plain_data()).find("pixels wide, and is cut"), std::string::npos);
     scene = plain_scene();
     scene.annotations.labels = Annotation{};
     EXPECT_NE(said(scene, plain_data()).find("no labels"), std::string::npos);
@@ -232,6 +237,24 @@ TEST(AnnotationLayer, WhatStaysDoesNotOverlap) {
             for (std::size_t j = 0; j < i; ++j)
                 EXPECT_FALSE(overlap(places[i], places[j])) << width;
         }
+    }
+}
+
+// A title that is written smaller fits; its letters keep 9 pixels, and a longer one is cut.
+TEST(AnnotationLayer, LongTitlesFit) {
+    const Scene scene = plain_scene();
+    const AnnotationStyle style(scene);
+    Font font;
+    Pen pen(style, font, nullptr);
+    double before = 1e9;
+    for (const std::size_t length : {10, 45, 60, 100, 1000}) {
+        const Block block =
+            text_block(pen, titled(std::string(length, 'x')), 12, "title", AnnotationPosition::top);
+        EXPECT_LE(block.size.x, 300 - 2 * style.gap) << length;
+        EXPECT_LE(block.size.y, before) << length;
+        EXPECT_GE(block.size.y, 9) << length;
+        EXPECT_EQ(block.note.empty(), length == 10) << block.note;
+        before = block.size.y;
     }
 }
 
