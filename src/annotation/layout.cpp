@@ -132,11 +132,18 @@ bool overlap(const Rectangle& a, const Rectangle& b) {
 
 namespace {
 
+// Tells whether a block for which the camera leaves no room keeps to its quarter of the picture:
+// the data lie in the middle.
+bool leaves_the_middle(const Block& block, const AnnotationStyle& style) {
+    const glm::dvec2 reach = block.size + style.gap;
+    return block.makes_room || (2 * reach.x <= style.width && 2 * reach.y <= style.height);
+}
+
 bool all_fit(std::vector<Block> blocks, const AnnotationStyle& style) {
     for (Block& block : blocks) block.size = glm::max(block.size, block.largest);
     const std::vector<Rectangle> places = placed(blocks, style);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        if (!style.holds(places[i])) return false;
+        if (!style.holds(places[i]) || !leaves_the_middle(blocks[i], style)) return false;
         for (std::size_t j = 0; j < i; ++j)
             if (overlap(places[i], places[j])) return false;
     }

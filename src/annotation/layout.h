@@ -95,8 +95,9 @@ bool overlap(const Rectangle& a, const Rectangle& b);
 // Sets blocks to their places: those of one place stand below each other, in their order.
 std::vector<Rectangle> placed(const std::vector<Block>& blocks, const AnnotationStyle& style);
 
-// Takes the blocks out that reach beyond the picture or overlap one of lower rank; of equal ranks
-// the first stays. Returns their keys.
+// Takes the blocks out that reach beyond the picture or overlap one of lower rank, of equal ranks
+// the first stays; and those without room of their own that reach beyond the picture's middle.
+// Returns their keys.
 std::vector<std::string> take_misfits(std::vector<Block>& blocks, const AnnotationStyle& style);
 
 // Returns the height in the middle of a side of the picture that blocks above and below leave to

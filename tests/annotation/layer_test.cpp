@@ -210,6 +210,18 @@ TEST(AnnotationLayer, LeavesOutWhatDoesNotFitInTheOrderOfImportance) {
     EXPECT_EQ(left_out(300, 200, texts), Keys{"texts.0"});
 }
 
+// The axes may take 7.2 ems of 9 pixels, 65, beside a gap of 7.2: 144.4 pixels are twice as many.
+TEST(AnnotationLayer, LeavesOutAxesThatWouldReachTheMiddle) {
+    using Keys = std::vector<std::string>;
+    Annotations axes;
+    axes.axes = Annotation{};
+    EXPECT_EQ(left_out(145, 145, axes), Keys{});
+    EXPECT_EQ(left_out(144, 145, axes), Keys{"axes"});
+    EXPECT_EQ(left_out(400, 144, axes), Keys{"axes"});
+    axes.axes->size = .5;
+    EXPECT_EQ(left_out(144, 144, axes), Keys{});
+}
+
 // Blocks that take_misfits() leaves lie in the picture, and no two of them overlap.
 TEST(AnnotationLayer, WhatStaysDoesNotOverlap) {
     for (int width = 20; width <= 400; width += 20) {
