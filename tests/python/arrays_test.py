@@ -161,7 +161,7 @@ def test_float32_says_what_it_cannot_hold():
 
 
 @pytest.mark.parametrize("array, error, message", [
-    (np.zeros((4, 5)), ValueError, r"shape \(4, 5\), expected three axes \(z, y, x\)"),
+    (np.zeros(4), ValueError, r"shape \(4,\), expected three axes \(z, y, x\), or two \(y, x\) of one slice"),
     (np.zeros((2, 3, 4, 5)), ValueError, r"shape \(2, 3, 4, 5\), expected three axes"),
     (np.zeros((0, 3, 4)), ValueError, r"shape \(0, 3, 4\), expected one sample or more"),
     (np.zeros((2, 2, 2), object), TypeError, "type object, expected whole or floating-point numbers"),
