@@ -188,7 +188,7 @@ class Npz {
         const std::vector<std::string> found = volumes(), all = names();
         if (found.empty())
             fail(
-                "{}: found no array of three axes or more, expected one, or \"array\" for one of "
+                "{}: found no array of three axes or more, expected one; \"array\" takes one of "
                 "two",
                 path_.string());
         if (all.size() > 1)
