@@ -337,6 +337,21 @@ def test_labels_in_arrays_have_their_numbers_too():
     assert halves.dtype == np.float32 and halves.lookup == "nearest"
 
 
+def test_arrays_that_look_like_labels_are_named():
+    def said(array, **keywords):
+        with warnings.catch_warnings(record=True) as found:
+            warnings.simplefilter("always")
+            lamina.render(lamina.Volume(array, **keywords), size=(8, 8), context="cpu")
+        return any("look like labels" in str(one.message) for one in found)
+
+    stored = np.zeros((40, 40, 40), np.uint8)
+    stored[10:20, 10:20, 10:20] = 7
+    assert said(stored) and said(stored.astype(float)) and said(stored.astype(int) * 10000)
+    assert not said(stored, lookup="nearest")
+    assert not said(stored > 0)  # a mask is a field as well
+    assert not said(np.random.default_rng(1).integers(0, 200, (40, 40, 40)))
+
+
 def test_what_is_taken_for_labels_is_said(tmp_path):
     stored = np.zeros((40, 40, 40), np.int32)
     stored[10:20, 10:20, 10:20] = 70000
