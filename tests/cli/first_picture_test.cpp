@@ -280,6 +280,9 @@ TEST_F(FirstPicture, AreNotScenes) {
             << result.err;
         EXPECT_FALSE(std::filesystem::exists(folder / name));
     }
+    const ProgramResult data = lamina_run({"scene", volume, "-o", folder / "s.nii.gz"});
+    EXPECT_EQ(data.exit_code, 2);
+    EXPECT_NE(data.err.find("is a data file's name"), std::string::npos) << data.err;
 }
 
 TEST_F(FirstPicture, ATurntableIsFittedAllAround) {

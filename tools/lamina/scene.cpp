@@ -59,16 +59,22 @@ void expect_utf8(const std::filesystem::path& file) {
     fail("{}: its name is not UTF-8, which a scene cannot hold: expected another name", name);
 }
 
-// Throws UsageError for the name of a picture or a film, which people mean for `lamina render`.
+// Throws UsageError for the names of pictures and films, which people mean for `lamina render`, and
+// of data.
 void expect_scene_name(const std::string& output) {
     const std::string suffix = lower_suffix(output);
     constexpr std::array pictures{".png", ".exr", ".npy", ".jpg", ".jpeg", ".tif", ".tiff"};
-    if (std::ranges::find(pictures, suffix) == pictures.end() && film_format_of(output) == nullptr)
-        return;
-    throw UsageError(
-        fmt::format("-o {}: is a picture's name, and a scene is JSON: expected a name as s.json "
-                    "(\"lamina render\" draws pictures)",
-                    output));
+    constexpr std::array data{".nrrd", ".nhdr", ".nii", ".gz",  ".mha", ".mhd",  ".vti",
+                              ".vtu",  ".vtk",  ".raw", ".dcm", ".h5",  ".zarr", ".node"};
+    if (std::ranges::find(pictures, suffix) != pictures.end() || film_format_of(output) != nullptr)
+        throw UsageError(
+            fmt::format("-o {}: is a picture's name, and a scene is JSON: expected a name as "
+                        "s.json (\"lamina render\" draws pictures)",
+                        output));
+    if (std::ranges::find(data, suffix) != data.end())
+        throw UsageError(fmt::format(
+            "-o {}: is a data file's name, and a scene is JSON: expected a name as s.json",
+            output));
 }
 
 void run(const SceneVerbOptions& options) {
