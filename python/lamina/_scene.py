@@ -195,6 +195,10 @@ def _set(document: dict[str, Any], key: str, value: Any) -> None:
     """Sets a key that is named by its path; None removes it."""
     *path, last = key.split(".")
     node: Any = document
+    if key in ("mesh.scalar", "mesh.array"):
+        raise ValueError(f"set: {key}: expected 'scalar': the array of a mesh is a key of the scene itself")
+    if path and path[0] in ("volume", "mesh") and isinstance(document.get(path[0]), str):
+        document[path[0]] = {"path": document[path[0]]}  # a file's name stands for an object with a path
     for part in path:
         if isinstance(node, dict):
             if node.get(part) == "auto":
