@@ -108,6 +108,15 @@ std::vector<char*> with_verb(const CLI::App& app, int argc, char** argv) {
     }
     if (is_option) return arguments;
     const std::string first = argv[1];
+    if (first == "help") {  // "help VERB" is "VERB --help"
+        static char help[] = "--help";
+        arguments.erase(arguments.begin() + 1);
+        arguments.resize(std::min<std::size_t>(arguments.size(), 2));
+        arguments.push_back(help);
+        return arguments.size() == 2
+                   ? arguments
+                   : with_verb(app, static_cast<int>(arguments.size()), arguments.data());
+    }
     bool can_view = false;
     for (const CLI::App* const verb : app.get_subcommands({})) {
         if (verb->get_name() == first) return arguments;
