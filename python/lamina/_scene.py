@@ -24,6 +24,14 @@ from ._words import WORDS
 # Suffixes of pictures and of data, which people mean for Picture.save() and Volume.save().
 _NO_SCENES = (".png", ".exr", ".npy", ".jpg", ".jpeg", ".tif", ".tiff", ".nrrd", ".vtu")
 
+# Where the keywords stand that people expect of render().
+_ELSEWHERE = {
+    **dict.fromkeys(("title", "axes", "scale_bar", "labels", "box"), ", which annotations={...} takes"),
+    **dict.fromkeys(("legend", "colorbar", "colourbar", "scalar_bar"), ', expected annotations={"colorbar": True}'),
+    **dict.fromkeys(("spacing", "origin", "directions", "centers", "lookup"), ", which lamina.Volume takes"),
+    **dict.fromkeys(("time", "channel", "level", "array"), ", which lamina.read takes"),
+}
+
 
 class Scene(dict[str, Any]):
     """A scene file's keys, and the data in memory that it draws, if any.
@@ -121,7 +129,8 @@ class Scene(dict[str, Any]):
                 _set(scene, ".".join(KEYWORDS.get(name, (name,))), item)
             else:
                 near = difflib.get_close_matches(name, [*KEYWORDS, *WORDS, "size", "set", "transfer_function"], 1)
-                raise TypeError(f"unexpected keyword {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
+                hint = _ELSEWHERE.get(name) or (f", did you mean {near[0]!r}?" if near else "")
+                raise TypeError(f"unexpected keyword {name!r}{hint}")
         return scene
 
     def __repr__(self) -> str:
