@@ -325,6 +325,12 @@ void warn_of_picture(const Scene& scene, const Field& field, const Image& pictur
         saturated += std::max({pixel[0], pixel[1], pixel[2]}) >= full ? 1U : 0U;
     }
     warn_of_units(scene, field.range());
+    if (glm::any(glm::greaterThan(scene.background, glm::dvec3(1)))) {
+        warn(fmt::format(
+            "image.background: found {:.4g}, {:.4g}, {:.4g}: colours are from 0 to 1, and a PNG "
+            "clamps more",
+            scene.background.r, scene.background.g, scene.background.b));
+    }
     if (shown > 0) warn_of_colors(scene, field.range());
     if (shown == 0) {
         warn(fmt::format("{}: the picture shows nothing: {}", name_of_scene(scene),

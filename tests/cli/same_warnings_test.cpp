@@ -103,6 +103,12 @@ TEST_F(SameWarnings, AreGivenForPicturesThatShowAlmostNothing) {
     expect_both_say(scene, " times as much (--density) gives 0.9");
 }
 
+TEST_F(SameWarnings, AreGivenForABackgroundOfCodes) {
+    json scene = gaussians_scene(12, 24, 18, 4);
+    scene["image"]["background"] = {255, 255, 255};
+    expect_both_say(scene, "image.background: found 255, 255, 255: colours are from 0 to 1");
+}
+
 TEST_F(SameWarnings, AreGivenForNonFiniteSamples) {
     json scene = volume_scene(
         "type: float\nsizes: 3 2 2\nencoding: ascii\n\n1 2 250 4 5 6 7 nan 9 80 200 30\n");
