@@ -130,6 +130,10 @@ TEST_F(WordsRun, OptionsThatAreWrongAreNamed) {
     expect({"--colourmap", "greys"}, "--colourmap: no such option, did you mean \"--colormap\"?");
     expect({"--titel", "x"}, "--titel: no such option, did you mean \"--title\"?");
     expect({"--set", "mesh.scalar=p"}, "--set mesh.scalar: expected scalar=p: the array of a mesh");
+    expect({"--max-error", ".1"},
+           "--max-error: no such option, did you mean --set render.max_error=VALUE?");
+    expect({"--set", "max_error=.1"},
+           "--set max_error: unknown key, did you mean \"render.max_error\"?");
     expect({"--nothing-like-it"}, "--nothing-like-it: no such option (");
     expect({"-size", "20x10"},
            "-size: no such option, did you mean \"--size\"? (lamina render --help");

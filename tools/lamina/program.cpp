@@ -25,6 +25,7 @@
 #include "git_commit.h"
 #include "lamina/words.h"
 #include "mesh_files/mesh_file.h"
+#include "shared_options.h"
 #include "simd/instruction_set.h"
 #include "volume_files/volume_file.h"
 
@@ -209,7 +210,14 @@ std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
         // A list of all options would say less than --help. -size is --size with a dash missing.
         const std::string whole = first.substr(0, first.find('='));
         const bool is_word = !whole.starts_with("--") && whole.size() > 2;
-        const std::string near = suggestion(known, (is_word ? "-" : "") + whole);
+        const std::string meant = (is_word ? "-" : "") + whole;
+        if (verb->get_option_no_throw("--set") != nullptr && !known.contains(meant)) {
+            std::string word = whole.substr(whole.find_first_not_of('-'));
+            std::ranges::replace(word, '-', '_');
+            if (const std::string key = scene_key_named(word); !key.empty())
+                return fmt::format("{}: no such option, did you mean --set {}=VALUE?", first, key);
+        }
+        const std::string near = suggestion(known, meant);
         return fmt::format("{}: no such option{}", first, near.starts_with(", did") ? near : "");
     }
     return text;
