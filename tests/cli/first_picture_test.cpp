@@ -271,6 +271,15 @@ TEST_F(FirstPicture, OddDataGiveAPictureOrOneLine) {
     EXPECT_FALSE(std::filesystem::exists(folder / "x.json"));
 }
 
+TEST_F(FirstPicture, HaveNoAnnotationsInNpyWhichIsSaid) {
+    const std::string volume = generated("gaussians"), said = "NPY holds the picture's numbers";
+    EXPECT_NE(render(volume, "a.npy", {"--title", "a"}).find(said), std::string::npos);
+    EXPECT_NE(render(volume, "a.npy", {"--title", "a", "--method", "trace"}).find(said),
+              std::string::npos);
+    EXPECT_EQ(render(volume, "a.exr", {"--title", "a"}).find(said), std::string::npos);
+    EXPECT_EQ(render(volume, "b.npy").find(said), std::string::npos);
+}
+
 TEST_F(FirstPicture, AreNotScenes) {
     const std::string volume = generated("gaussians");
     for (const char* const name : {"s.png", "s.EXR", "s.jpg", "s.mp4"}) {

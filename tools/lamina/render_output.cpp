@@ -23,6 +23,12 @@ std::unique_ptr<OutputFile> open_file(const std::string& output) {
     return open_named(output);
 }
 
+template <typename Real>
+void warn_of_annotations(const RgbaImage<Real>& image) {
+    if (image.annotations != nullptr)
+        warn("image.annotations: NPY holds the picture's numbers alone; PNG and EXR have them");
+}
+
 // Output of one picture: the scene's own. With --frames it also times further frames.
 class SinglePicture : public RenderOutput {
   public:
@@ -96,6 +102,7 @@ std::size_t PictureFile::write(const Image& image, const PngLook& look,
             clamped = write_png(*file_, image, look, space);
             break;
         case PictureFormat::npy:
+            warn_of_annotations(image);
             write_npy(*file_, image);
             break;
     }
@@ -106,6 +113,7 @@ std::size_t PictureFile::write(const Image& image, const PngLook& look,
 std::size_t PictureFile::write(const PreciseImage& image, const PngLook& look,
                                const PictureAttributes& attributes, ImageColorSpace space) {
     if (format_ != PictureFormat::npy) return write(to_float(image), look, attributes, space);
+    warn_of_annotations(image);
     write_npy(*file_, image);
     file_->commit();
     return 0;
