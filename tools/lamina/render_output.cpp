@@ -128,6 +128,7 @@ void OutputOptions::check() const {
     if (views > 0 && output.empty()) throw UsageError("--turntable: expected -o FILE, too");
     if (time && (views > 0 || frames > 0))
         throw UsageError("--time: expected neither --turntable nor --frames beside it");
+    if (time) time_range(*time);  // throws UsageError
     if (!path.empty() && output.empty()) throw UsageError("--path: expected -o FILE, too");
     if (!path.empty() && (views > 0 || frames > 0 || time))
         throw UsageError("--path: expected neither --turntable, --time nor --frames beside it");
