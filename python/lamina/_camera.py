@@ -13,6 +13,11 @@ from ._volume import Volume
 Vector = tuple[float, float, float]
 
 
+def _expect_data(data: Any) -> None:
+    if not isinstance(data, (Volume, Mesh)):
+        raise TypeError(f"data: found {type(data).__name__}, expected a lamina.Volume or a lamina.Mesh")
+
+
 @dataclasses.dataclass(frozen=True)
 class Camera:
     """``eye``, ``center``: world places (x, y, z) that it is at and looks at. ``up``: any vector not along the view.
@@ -56,6 +61,7 @@ class Camera:
         >>> lamina.Camera.orbit(lamina.Volume(np.zeros((9, 9, 9), np.uint8)), azimuth=90).center
         (4.0, 4.0, 4.0)
         """
+        _expect_data(data)
         lowest, highest = data.bounds
         degrees = [_conversion.number(name, angle)
                    for name, angle in (("azimuth", azimuth), ("elevation", elevation), ("fov_y", fov_y))]
@@ -68,6 +74,7 @@ class Camera:
         data (None: the automatic one) fills a picture of ``size`` (width, height) pixels; gone around that by degrees
         to the right and up, fitted again."""
         from ._scene import scene_of  # a scene reads cameras
+        _expect_data(data)
         scene = scene_of(data, transfer_function, {"size": size})._parsed()
         return cls(**_lamina.fit(scene, data._core, _conversion.number("azimuth", azimuth),
                                  _conversion.number("elevation", elevation)))

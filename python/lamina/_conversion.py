@@ -103,8 +103,11 @@ def array_zyx(values: Any, axes: str) -> np.ndarray:
     if sorted(axes) != ["x", "y", "z"]:
         raise ValueError(f"axes: found {shown(axes)}, expected the letters x, y and z, each once, in the order of the "
                          "array's axes")
+    if array.ndim == 2:
+        array = np.expand_dims(array, axes.index("z"))  # one slice
     if array.ndim != 3:
-        raise ValueError(f"array: found the shape {array.shape}, expected three axes ({', '.join(axes)})")
+        raise ValueError(f"array: found the shape {array.shape}, expected three axes ({', '.join(axes)}), or two "
+                         "(y, x) of one slice")
     if array.size == 0:
         raise ValueError(f"array: found the shape {array.shape}, expected one sample or more along each axis")
     return array.transpose([axes.index(letter) for letter in "zyx"])

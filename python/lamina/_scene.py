@@ -21,6 +21,17 @@ from ._plain import plain
 from ._volume import Path, Volume, folder_name
 from ._words import WORDS
 
+# Suffixes of pictures and of data, which people mean for Picture.save() and Volume.save().
+_NO_SCENES = (".png", ".exr", ".npy", ".jpg", ".jpeg", ".tif", ".tiff", ".nrrd", ".vtu")
+
+# Where the keywords stand that people expect of render().
+_ELSEWHERE = {
+    **dict.fromkeys(("title", "axes", "scale_bar", "labels", "box"), ", which annotations={...} takes"),
+    **dict.fromkeys(("legend", "colorbar", "colourbar", "scalar_bar"), ', expected annotations={"colorbar": True}'),
+    **dict.fromkeys(("spacing", "origin", "directions", "centers", "lookup"), ", which lamina.Volume takes"),
+    **dict.fromkeys(("time", "channel", "level", "array"), ", which lamina.read takes"),
+}
+
 
 class Scene(dict[str, Any]):
     """A scene file's keys, and the data in memory that it draws, if any.
@@ -68,6 +79,8 @@ class Scene(dict[str, Any]):
         """Writes a scene file from which the command line draws the same. Data that are in memory alone go beside it
         (``.nrrd``, ``.vtu``)."""
         path = pathlib.Path(file)
+        if path.suffix.lower() in _NO_SCENES:
+            raise Error(f"{path}: found the suffix \"{path.suffix}\", expected a name as s.json: a scene is JSON")
         document = dict(self)
         if isinstance(self.data, Volume):
             document["volume"] = self.data._source or str(_kept(self.data, path.with_suffix(".nrrd")))
@@ -116,7 +129,8 @@ class Scene(dict[str, Any]):
                 _set(scene, ".".join(KEYWORDS.get(name, (name,))), item)
             else:
                 near = difflib.get_close_matches(name, [*KEYWORDS, *WORDS, "size", "set", "transfer_function"], 1)
-                raise TypeError(f"unexpected keyword {name!r}" + (f", did you mean {near[0]!r}?" if near else ""))
+                hint = _ELSEWHERE.get(name) or (f", did you mean {near[0]!r}?" if near else "")
+                raise TypeError(f"unexpected keyword {name!r}{hint}")
         return scene
 
     def __repr__(self) -> str:
@@ -190,6 +204,10 @@ def _set(document: dict[str, Any], key: str, value: Any) -> None:
     """Sets a key that is named by its path; None removes it."""
     *path, last = key.split(".")
     node: Any = document
+    if key in ("mesh.scalar", "mesh.array"):
+        raise ValueError(f"set: {key}: expected 'scalar': the array of a mesh is a key of the scene itself")
+    if path and path[0] in ("volume", "mesh") and isinstance(document.get(path[0]), str):
+        document[path[0]] = {"path": document[path[0]]}  # a file's name stands for an object with a path
     for part in path:
         if isinstance(node, dict):
             if node.get(part) == "auto":

@@ -28,12 +28,14 @@ class Volume:
     """Samples on a regular grid.
 
     ``array`` has three axes, in the order ``axes``: ``"zyx"`` for ``array[z, y, x]``, ``"xyz"`` for ``array[x, y, z]``
-    and so on. The other arguments are always in the order x, y, z. ``spacing`` (> 0) and ``origin`` (the position of
-    the first sample) are in world units. ``directions``: unit vectors along the array's x, y and z, perpendicular to
-    each other. ``centers``: with ``"node"`` the box spans the samples, with ``"cell"`` it spans whole voxels, half a
-    voxel more at each end. ``lookup``: with ``"linear"`` the field between samples is trilinear, with ``"nearest"`` it
-    is constant in each sample's voxel, for labels: whole numbers of any type that 16 bits do not hold are then numbered
-    as those of a file are (``labels``), with a ``PictureWarning``.
+    and so on, or two, without z, of one slice. The other arguments are always in the order x, y, z. ``spacing`` (> 0)
+    and ``origin`` (the position of the first sample) are in world units. ``directions``: unit vectors along the
+    array's x, y and z, perpendicular to each other. ``centers``: with ``"node"`` the box spans the samples, with
+    ``"cell"`` it spans whole voxels, half a voxel more at each end. ``lookup``: with ``"linear"`` the field between
+    samples is trilinear, with ``"nearest"`` it is constant in each sample's voxel, for labels: whole numbers of any
+    type that 16 bits do not hold are then numbered as those of a file are (``labels``), with a ``PictureWarning``.
+    Unlike files, arrays are never taken for labels by themselves; pictures of those that look like labels have a
+    ``PictureWarning``.
 
     Contiguous arrays (contiguous as ``array[z, y, x]``: for ``axes="xyz"`` that is Fortran order) of uint8, int16,
     uint16 and float32 in native byte order are not copied: do not change them while they are drawn. If an array was
@@ -55,9 +57,9 @@ class Volume:
     <lamina.Volume 6 x 5 x 4 uint8, from (0, 0, 0) to (5, 4, 6)>
     >>> np.shares_memory(volume.array, values)
     True
-    >>> lamina.Volume(np.zeros((4, 5)))
+    >>> lamina.Volume(np.zeros((2, 3, 4, 5)))
     Traceback (most recent call last):
-    ValueError: array: found the shape (4, 5), expected three axes (z, y, x)
+    ValueError: array: found the shape (2, 3, 4, 5), expected three axes (z, y, x), or two (y, x) of one slice
     """
 
     def __init__(self, array: Any, spacing: float | Sequence[float] = (1, 1, 1),

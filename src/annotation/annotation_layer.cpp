@@ -51,6 +51,12 @@ void check(const Annotations& annotations) {
 // Ranks of blocks (docs/annotations.md, "Small pictures").
 enum Rank { title_rank, colors_rank, scale_rank, axes_rank, texts_rank };
 
+// Tells whether the transfer function shows any value of the data.
+bool anything_shows(const Scene& scene, const AnnotatedData& data) {
+    return data.range.empty() ||
+           !scene.transfer_function->transparent(data.range.lo, data.range.hi);
+}
+
 // Makes the blocks of a scene in the order in which those of one place stand.
 std::vector<Block> blocks_of(Pen& pen, const Scene& scene, const AnnotatedData& data) {
     const Annotations& wanted = scene.annotations;
@@ -77,7 +83,7 @@ std::vector<Block> blocks_of(Pen& pen, const Scene& scene, const AnnotatedData& 
         return free_height(blocks, of.position.value_or(AnnotationPosition::right), pen.style);
     };
     const bool both = wanted.colorbar && wanted.labels;
-    if (wanted.colorbar && !(both && data.are_labels)) {
+    if (wanted.colorbar && !(both && data.are_labels) && anything_shows(scene, data)) {
         colors.push_back(
             color_bar(pen, *wanted.colorbar, scene, data, height(*wanted.colorbar)).block);
     }
@@ -165,6 +171,11 @@ std::shared_ptr<const Image> annotation_layer(const Scene& scene, const Annotate
             "image.annotations.labels: the data are no labels, so there is no legend of them "
             "(\"colorbar\" shows the colours of measured values)");
     }
+    if (scene.annotations.colorbar && !anything_shows(scene, data)) {
+        warn(
+            "image.annotations.colorbar: there is no colour bar, for the transfer function shows "
+            "none of the data's values");
+    }
     const AnnotationStyle style(scene);
     Font font;
     Canvas canvas(scene.width, scene.height, scene.color_space);
@@ -179,6 +190,8 @@ std::shared_ptr<const Image> annotation_layer(const Scene& scene, const Annotate
     };
     std::vector<Block> blocks = blocks_of(pen, scene, data);
     warn_of_misfits(take_misfits(blocks, style), style);
+    for (const Block& block : blocks)
+        if (!block.note.empty()) warn(block.note);
     const std::vector<Rectangle> places = placed(blocks, style);
     if (scene.annotations.box) {
         std::vector<Rectangle> taken = places;

@@ -178,6 +178,18 @@ void set_numbers(Bar& bar, const std::string& format) {
     for (const double value : bar.values) bar.numbers.push_back(text(value));
 }
 
+// Returns a range without the values beyond the function's first and last point, which look alike,
+// unless there is a step or nothing else.
+BarRange where_it_changes(const TransferFunction& function, const BarRange& range) {
+    const auto knots = function.knots();
+    const auto step = [&](std::size_t i) { return knots[i].value == knots[i + 1].value; };
+    if (knots.size() < 2) return range;
+    const BarRange inner{
+        step(0) ? range.lo : std::max(range.lo, knots.front().value),
+        step(knots.size() - 2) ? range.hi : std::min(range.hi, knots.back().value)};
+    return inner.lo < inner.hi ? inner : range;
+}
+
 }  // namespace
 
 BarRange bar_range(const TransferFunction& transfer_function, const ValueRange& data) {
@@ -194,7 +206,8 @@ BarRange bar_range(const TransferFunction& transfer_function, const ValueRange& 
         range.lo = std::min(range.lo, lo);
         range.hi = std::max(range.hi, hi);
     }
-    return range.lo <= range.hi ? range : BarRange{data.lo, data.hi};
+    return range.lo <= range.hi ? where_it_changes(transfer_function, range)
+                                : BarRange{data.lo, data.hi};
 }
 
 double value_at(const BarRange& range, int row, int rows) {

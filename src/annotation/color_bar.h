@@ -12,8 +12,8 @@ struct BarRange {
     double lo = 0, hi = 0;  // values; equal if there is a single one
 };
 
-// Returns the range of the data's values that show: the least to the largest with extinction above
-// 0, or all if none shows.
+// Returns the range of the data's values that show, the least to the largest with extinction above
+// 0, without those beyond the function's ends, which look alike; all if none shows.
 BarRange bar_range(const TransferFunction& transfer_function, const ValueRange& data);
 
 // Returns the value in the middle of a row of pixels of a bar of `rows` rows; row 0 is the topmost.

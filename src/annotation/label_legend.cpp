@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "annotation/color_bar.h"
-#include "base/client.h"
 
 namespace lamina {
 namespace {
@@ -68,14 +67,15 @@ Block label_legend(Pen& pen, const Annotation& wanted, const Scene& scene,
     const auto rows = static_cast<std::size_t>(std::max(
         2.0, std::floor(std::min(tallest_legend * pen.style.height, height) / (row_height * em)) -
                  double(legend.caption.size())));
+    std::string note;
     if (shown.size() > rows) {
         const std::size_t left_out = shown.size() - (rows - 1);
         shown.resize(rows - 1);
         legend.rest = fmt::format("and {} more", left_out);
-        warn(fmt::format(
+        note = fmt::format(
             "image.annotations.labels: the picture has room for {} of {} labels; a smaller "
             "\"size\" or a higher picture shows more",
-            rows - 1, rows - 1 + left_out));
+            rows - 1, rows - 1 + left_out);
     }
     // Only texts that stay are fitted: a file may name many thousands.
     for (const Label* const label : shown) {
@@ -96,6 +96,7 @@ Block label_legend(Pen& pen, const Annotation& wanted, const Scene& scene,
     const std::size_t lines =
         legend.caption.size() + legend.entries.size() + (legend.rest.empty() ? 0 : 1);
     block.size = {std::ceil(block.size.x), std::ceil(row_height * em * double(lines))};
+    block.note = note;
     block.draw = [legend](Pen& drawing, const glm::dvec2& at) { legend.draw(drawing, at); };
     return block;
 }

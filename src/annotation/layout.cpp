@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "annotation/layout.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -130,11 +132,18 @@ bool overlap(const Rectangle& a, const Rectangle& b) {
 
 namespace {
 
+// Tells whether a block for which the camera leaves no room keeps to its quarter of the picture:
+// the data lie in the middle.
+bool leaves_the_middle(const Block& block, const AnnotationStyle& style) {
+    const glm::dvec2 reach = block.size + style.gap;
+    return block.makes_room || (2 * reach.x <= style.width && 2 * reach.y <= style.height);
+}
+
 bool all_fit(std::vector<Block> blocks, const AnnotationStyle& style) {
     for (Block& block : blocks) block.size = glm::max(block.size, block.largest);
     const std::vector<Rectangle> places = placed(blocks, style);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        if (!style.holds(places[i])) return false;
+        if (!style.holds(places[i]) || !leaves_the_middle(blocks[i], style)) return false;
         for (std::size_t j = 0; j < i; ++j)
             if (overlap(places[i], places[j])) return false;
     }
@@ -216,9 +225,26 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 Block text_block(Pen& pen, const Annotation& annotation, double size, const std::string& key,
                  AnnotationPosition position) {
     Block block{key, annotation.position.value_or(position), {}, true, {}};
-    const std::vector<std::string_view> lines = lines_of(annotation.text);
-    for (const std::string_view line : lines)
-        block.size.x = std::max(block.size.x, pen.width(line, size));
+    std::vector<std::string> lines;
+    for (const std::string_view line : lines_of(annotation.text)) lines.emplace_back(line);
+    const auto widest = [&](double of_size) {
+        double width = 0;
+        for (const std::string& line : lines) width = std::max(width, pen.width(line, of_size));
+        return width;
+    };
+    const double room = pen.style.width - 2 * pen.style.gap, wanted = widest(size);
+    if (wanted > room) {
+        // One in 1000 less, so that rounding does not make the widest line too wide.
+        size = std::min(size, std::max(least_em, 0.999 * size * room / wanted));
+        const bool cut = widest(size) > room;
+        if (cut)
+            for (std::string& line : lines) line = pen.font.fitted(line, size, room);
+        block.note = fmt::format(
+            "{}: is too long for a picture {} pixels wide, and is {}; a text may have several "
+            "lines",
+            key, pen.style.width, cut ? "cut" : "written smaller");
+    }
+    block.size.x = widest(size);
     block.size.y = size * (line_distance * static_cast<double>(lines.size() - 1) + 1.2);
     block.draw = [lines, size, width = block.size.x, side = across(block.position)](
                      Pen& drawing, const glm::dvec2& at) {

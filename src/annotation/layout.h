@@ -87,6 +87,7 @@ struct Block {
     int rank = 0;
     // Largest size in any view, so that what fits does not change in a film; `size` is not larger.
     glm::dvec2 largest{0};
+    std::string note = {};  // what is not shown as asked, for a warning; empty: nothing
 };
 
 bool overlap(const Rectangle& a, const Rectangle& b);
@@ -94,8 +95,9 @@ bool overlap(const Rectangle& a, const Rectangle& b);
 // Sets blocks to their places: those of one place stand below each other, in their order.
 std::vector<Rectangle> placed(const std::vector<Block>& blocks, const AnnotationStyle& style);
 
-// Takes the blocks out that reach beyond the picture or overlap one of lower rank; of equal ranks
-// the first stays. Returns their keys.
+// Takes the blocks out that reach beyond the picture or overlap one of lower rank, of equal ranks
+// the first stays; and those without room of their own that reach beyond the picture's middle.
+// Returns their keys.
 std::vector<std::string> take_misfits(std::vector<Block>& blocks, const AnnotationStyle& style);
 
 // Returns the height in the middle of a side of the picture that blocks above and below leave to
@@ -107,7 +109,8 @@ PictureMargins margins_of(const std::vector<Block>& blocks, const AnnotationStyl
 
 std::vector<std::string_view> lines_of(std::string_view text);  // parted by "\n" or "\r\n"
 
-// Makes a block of lines of text.
+// Makes a block of lines of text. Lines that are wider than the picture are written smaller, as far
+// as letters can be read, and then cut.
 Block text_block(Pen& pen, const Annotation& annotation, double size, const std::string& key,
                  AnnotationPosition position);
 

@@ -185,8 +185,14 @@ nlohmann::json parse_json(std::string_view text) {
 }
 
 nlohmann::json load_json(const std::filesystem::path& file) {
+    std::string text;
     try {
-        return parse_json(bytes_of(file));
+        text = bytes_of(file);
+        return parse_json(text);
+    } catch (const JsonSyntaxError& problem) {
+        const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+        const bool begins = first != text.npos && (text[first] == '{' || text[first] == '[');
+        fail("{}: {}{}", file.string(), begins ? "" : "found no JSON: ", problem.what());
     } catch (const Error& problem) {
         fail("{}: {}", file.string(), problem.what());
     }

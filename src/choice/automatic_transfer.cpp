@@ -128,7 +128,7 @@ double extinction_of(double share) {
 // The labels that a volume has, with what its file says of them.
 class LabelTable {
   public:
-    // `said` may be null; then `around` is the value around the data, if there is one.
+    // `said` may be null. `around`: the value around the data, if there is one.
     LabelTable(const ValueDistribution& values, const VolumeLabels* said,
                const std::optional<double>& around)
         : values_(values), said_(said), around_(around), of_value_(values.distinct(), nullptr) {
@@ -153,18 +153,24 @@ class LabelTable {
 
     // Returns the place of the background. Of what the file calls labels, that is the most frequent
     // value if it is negative, as programs mark voxels without a label, else the label 0, else the
-    // most frequent value of several. Of other values it is the one around the data, else the most
-    // frequent one.
+    // one around the data, else the most frequent value of several. Of other values it is the one
+    // around the data, else the most frequent one.
     std::optional<std::size_t> background() const {
         std::size_t common = 0;
         for (std::size_t i = 1; i < size(); ++i)
             if (share(i) > share(common)) common = i;
-        for (std::size_t i = 0; said_ == nullptr && around_ && i < size(); ++i)
-            if (value(i) == *around_) return i;
-        if (said_ == nullptr || number(common) < 0) return common;
+        const std::optional<std::size_t> outside = surrounding();
+        if (said_ == nullptr) return outside.value_or(common);
+        if (number(common) < 0) return common;
         for (std::size_t i = 0; i < size(); ++i)
             if (number(i) == 0) return i;
-        return size() > 1 ? std::optional(common) : std::nullopt;
+        return size() > 1 ? std::optional(outside.value_or(common)) : std::nullopt;
+    }
+    // Returns the place of the value around the data; nothing if there is none.
+    std::optional<std::size_t> surrounding() const {
+        for (std::size_t i = 0; around_ && i < size(); ++i)
+            if (value(i) == *around_) return i;
+        return std::nullopt;
     }
 
   private:
@@ -176,7 +182,7 @@ class LabelTable {
 
 // Returns the sentence on what labels show.
 std::string label_text(const LabelTable& labels, bool known, std::optional<std::size_t> background,
-                       const std::optional<ValueRange>& range) {
+                       std::optional<std::size_t> margin, const std::optional<ValueRange>& range) {
     std::string text = fmt::format("{} {}", labels.size(),
                                    !known               ? "whole numbers look like labels"
                                    : labels.size() == 1 ? "label"
@@ -185,6 +191,9 @@ std::string label_text(const LabelTable& labels, bool known, std::optional<std::
         text += fmt::format(": {}, {:.3g} % of the field, is transparent",
                             labels.number_text(*background), 100 * labels.share(*background));
     }
+    if (margin)
+        text += fmt::format(", and so is {}, which lies around the others",
+                            labels.number_text(*margin));
     if (labels.size() == 1)
         return text + (background ? ", so that nothing shows" : ", which shows everywhere");
     if (range)
@@ -192,22 +201,35 @@ std::string label_text(const LabelTable& labels, bool known, std::optional<std::
     return text + ", each of the others has a colour";
 }
 
-// Returns a transfer function for labels: the background is transparent; each of the others has the
-// file's colour and opacity (`said`, or null) or a colour that reaches halfway to its neighbours.
-// `range`: numbers of the file that show; all if empty.
+// Returns the place of the label that lies around the others, a margin, and is not the background;
+// nothing if no other one is left, or if the file names it.
+std::optional<std::size_t> margin_of(const LabelTable& labels,
+                                     const std::optional<std::size_t>& background) {
+    const std::optional<std::size_t> around = labels.surrounding();
+    if (!around || !background || around == background || labels.size() < 3) return std::nullopt;
+    const Label* const label = labels.label(*around);
+    return label == nullptr || label->name.empty() ? around : std::nullopt;
+}
+
+// Returns a transfer function for labels: background and, unless there is a range, margin are
+// transparent; each of the others has the file's colour and opacity (`said`, or null) or a colour
+// that reaches halfway to its neighbours. `range`: numbers of the file that show; all if empty.
 AutomaticTransfer label_transfer(const ValueDistribution& values, const VolumeLabels* said,
                                  const std::optional<ValueRange>& range,
-                                 const std::optional<double>& around = {}) {
+                                 const std::optional<double>& around) {
     const LabelTable labels(values, said, around);
     const std::optional<std::size_t> background = labels.background();
-    const double shown = background ? 1 - labels.share(*background) : 1;
+    const std::optional<std::size_t> margin = range ? std::nullopt : margin_of(labels, background);
+    double shown = 1;
+    for (const auto& hidden : {background, margin})
+        if (hidden) shown -= labels.share(*hidden);
     std::vector<TransferKnot> points;
     double largest = 0;
     for (std::size_t i = 0; i < labels.size(); ++i) {
         OpticalProperties optics;
         const bool wished =
             !range || (labels.number(i) >= range->lo && labels.number(i) <= range->hi);
-        if (wished && i != background) {
+        if (wished && i != background && i != margin) {
             const std::size_t before = background && *background < i ? 1 : 0;
             optics = {label_color(i - before), extinction_of(labels.share(i) / shown)};
             if (const Label* const label = labels.label(i)) {
@@ -221,7 +243,12 @@ AutomaticTransfer label_transfer(const ValueDistribution& values, const VolumeLa
     for (TransferKnot& point : points)
         if (largest > 0) point.optics.extinction /= largest;
     return {TransferFunction::nearest(points),
-            label_text(labels, said != nullptr, background, range), "", false, label_opacity};
+            label_text(labels, said != nullptr, background, margin, range), "", false,
+            label_opacity};
+}
+
+std::optional<double> value_around(const TransferSubject& subject) {
+    return subject.field == nullptr ? std::nullopt : subject.field->corner_value();
 }
 
 AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers,
@@ -230,9 +257,7 @@ AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers,
     if (values.distinct() < 2) return one_value(values.empty() ? 0 : values.lowest());
     if (whole_numbers && values.distinct() <= most_labels && values.distinct() > 2 &&
         (subject.field == nullptr || subject.field->lies_in_pieces()))
-        return label_transfer(
-            values, nullptr, {},
-            subject.field == nullptr ? std::nullopt : subject.field->corner_value());
+        return label_transfer(values, nullptr, {}, value_around(subject));
     const ChosenSurfaces chosen = choose_surfaces(padding, whole_numbers, subject);
     return chosen.points.empty() ? one_value(values.lowest()) : with_surfaces(chosen);
 }
@@ -244,7 +269,8 @@ AutomaticTransfer choose_transfer_function(const ValueDistribution& values, bool
                                            double least_padding_share, const VolumeLabels* labels,
                                            const TransferSubject& subject) {
     if (labels != nullptr && values.distinct() > 0) {
-        AutomaticTransfer chosen = label_transfer(values, labels, adjustments.range);
+        AutomaticTransfer chosen =
+            label_transfer(values, labels, adjustments.range, value_around(subject));
         TransferFunction& palette = chosen.transfer_function;
         if (adjustments.colormap) palette = recolored(palette, *adjustments.colormap);
         return chosen;

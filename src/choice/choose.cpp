@@ -348,15 +348,39 @@ void clip_border(const BorderlessField& inner, const Clip& own, Choices& choices
                     values, widest, widest == 1 ? "" : "s"));
 }
 
-// Tells whether a box ends inside the border: at the planes that would cut it away, or farther in.
-bool ends_inside(const ClipBox& box, const BorderlessField& inner) {
-    constexpr double rounding = 1e-9;  // of the box's places, which may be written with few digits
-    const glm::dvec3 slack = rounding * glm::max(glm::abs(box.min), glm::abs(box.max));
-    return std::ranges::all_of(inner.sides, [&](const BorderSide& side) {
-        const glm::dvec3& normal = side.inside.normal;
-        const glm::dvec3 nearest = glm::mix(box.min, box.max, glm::lessThan(normal, glm::dvec3(0)));
-        return glm::dot(nearest + glm::sign(normal) * slack - side.inside.point, normal) >= 0;
+// Tells whether a point lies at the plane that would cut a side of a border away, or farther in.
+bool is_inside(const glm::dvec3& point, const BorderSide& side) {
+    constexpr double rounding = 1e-9;  // of places, which may be written with few digits
+    const glm::dvec3 slack = rounding * glm::abs(point);
+    const glm::dvec3& normal = side.inside.normal;
+    return glm::dot(point + glm::sign(normal) * slack - side.inside.point, normal) >= 0;
+}
+
+// Tells whether a clip cuts a side of a border away, by its box or by a plane along the side.
+bool is_cut_away(const BorderSide& side, const Clip& clip) {
+    constexpr double parallel = 1 - 1e-12;  // cosine
+    const glm::dvec3& normal = side.inside.normal;
+    if (clip.box) {
+        const auto upper = glm::lessThan(normal, glm::dvec3(0));
+        if (is_inside(glm::mix(clip.box->min, clip.box->max, upper), side)) return true;
+    }
+    return std::ranges::any_of(clip.planes, [&](const ClipPlane& plane) {
+        return glm::dot(glm::normalize(plane.normal), normal) > parallel &&
+               is_inside(plane.point, side);
     });
+}
+
+// Adds a reason that names what is left of a border because the scene or --crop says what is kept.
+void say_kept_border(const BorderlessField& inner, Choices& choices) {
+    const Scene& scene = choices.scene;
+    for (const BorderSide& side : inner.sides) {
+        const auto [lo, hi] = std::minmax(side.value, side.behind);
+        if (is_cut_away(side, scene.clip) || scene.transfer_function->transparent(lo, hi)) continue;
+        choices.reasons.push_back(fmt::format(
+            "clip: a border of {:.9g}, up to {} sample{} wide, is kept, because the crop leaves it",
+            side.value, side.width, side.width == 1 ? "" : "s"));
+        return;
+    }
 }
 
 // Chooses all but the directions of lights that were asked for.
@@ -366,10 +390,13 @@ Choices choose_unlit(Scene asked, const Field& whole, const Adjustments& adjustm
     std::optional<BorderlessField> inner;
     // A box says itself what it keeps. If this has a part of the border, the border counts.
     const bool has_box = scene.clip.box || adjustments.own_crop;
-    if (scene.transfer_function.is_automatic() && (scene.clip.box || !has_box) &&
-        scene.clip.planes.size() + 6 <= Clip::most_planes)
+    if (scene.transfer_function.is_automatic() && scene.clip.planes.size() + 6 <= Clip::most_planes)
         inner = whole.without_border();
-    if (inner && has_box && !ends_inside(*scene.clip.box, *inner)) inner.reset();
+    std::optional<BorderlessField> kept;  // a border that counts
+    if (inner && has_box && !std::ranges::all_of(inner->sides, [&](const BorderSide& side) {
+            return is_cut_away(side, scene.clip);
+        }))
+        kept.swap(inner);
     const Field& field = inner ? *inner->field : whole;
     const Clip own = scene.clip;
     if (inner && !has_box)
@@ -411,6 +438,7 @@ Choices choose_unlit(Scene asked, const Field& whole, const Adjustments& adjustm
         chosen.median_opacity = AutomaticTransfer().median_opacity;
     }
     if (inner && !has_box) clip_border(*inner, own, choices);
+    if (kept) say_kept_border(*kept, choices);
     std::string orientation;
     if (chooses_camera)
         orientation = choose_camera(adjustments, field, chosen.per_world_unit, scene);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/common.hpp>
@@ -99,6 +100,9 @@ std::string why_not_kept(const SlicePlan& plan, double wanted, double error) {
 
 // Opacities below half a code of 8 bits are invisible.
 constexpr float least_opacity = .5F / 255;
+// A picture whose pixels are all below this shows almost nothing: eyes see a contrast of 1 in 100
+// at best, and on white .01 is one code of a PNG.
+constexpr float faint = .01F;
 // A pixel at least this bright is stored as code 255 of a PNG: 254.5 / 255 as a display value, or
 // in linear light the sRGB decoding of that value, .9956.
 constexpr float full_display = 254.5F / 255, full_light = .9956F;
@@ -152,6 +156,16 @@ const char* side_beside(const View& view, const std::array<glm::dvec3, 8>& corne
     return nullptr;
 }
 
+// Returns why a picture is faint, and what to do. `largest`: its largest opacity, above 0.
+std::string why_faint(const Scene& scene, const ValueRange& range, float largest) {
+    constexpr double visible = .9;  // opacity
+    const double factor = std::log1p(-visible) / std::log1p(-double{largest});
+    return fmt::format(
+        "the largest opacity is {:.2g}, for the extinction of at most {:.3g} per unit of length is "
+        "small for these data; {:.3g} times as much (--density) gives {}",
+        largest, scene.transfer_function->max_extinction(range.lo, range.hi), factor, visible);
+}
+
 std::string why_nothing_shows(const Scene& scene, const Field& field, float largest) {
     const ValueRange range = field.range();
     if (scene.transfer_function->transparent(range.lo, range.hi)) {
@@ -167,13 +181,7 @@ std::string why_nothing_shows(const Scene& scene, const Field& field, float larg
     if (const char* const side = side_beside(view, corners))
         return fmt::format("the camera looks past the data, which lie {} the picture", side);
     if (field.cut_away_by(scene.clip)) return "the clip cuts all of the data away";
-    if (largest > 0) {
-        return fmt::format(
-            "the largest opacity is {:.2g}, for the extinction of at most {:.3g} per unit of "
-            "length "
-            "is small for these data",
-            largest, scene.transfer_function->max_extinction(range.lo, range.hi));
-    }
+    if (largest > 0) return why_faint(scene, range, largest);
     return scene.clip.keeps_all()
                ? "no pixel's ray meets a value that the transfer function shows"
                : "no pixel's ray meets a value that the transfer function shows in what "
@@ -305,20 +313,29 @@ void warn_of_all(const Warnings& all) {
 
 void warn_of_picture(const Scene& scene, const Field& field, const Image& picture) {
     const float full = scene.color_space == ImageColorSpace::display ? full_display : full_light;
-    float largest = 0;
+    float largest = 0, brightest = 0;
     std::size_t shown = 0, saturated = 0;
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4) {
         const float* const pixel = &picture.rgba[i];
         largest = std::max(largest, pixel[3]);
+        brightest = std::max({brightest, pixel[0], pixel[1], pixel[2]});
         if (pixel[3] < least_opacity) continue;
         ++shown;
         saturated += std::max({pixel[0], pixel[1], pixel[2]}) >= full ? 1U : 0U;
     }
     warn_of_units(scene, field.range());
+    if (glm::any(glm::greaterThan(scene.background, glm::dvec3(1)))) {
+        say("image.background: found {:.4g}, {:.4g}, {:.4g}: colours are from 0 to 1, and a PNG "
+            "clamps more",
+            scene.background.r, scene.background.g, scene.background.b);
+    }
     if (shown > 0) warn_of_colors(scene, field.range());
     if (shown == 0) {
         say("{}: the picture shows nothing: {}", name_of_scene(scene),
             why_nothing_shows(scene, field, largest));
+    } else if (std::max(largest, brightest) < faint) {
+        say("{}: the picture shows almost nothing: {}", name_of_scene(scene),
+            why_faint(scene, field.range(), largest));
     } else if (2 * saturated > shown) {
         say("{}: {:.0f} % of the pixels that show something are saturated: less "
             "extinction or darker colours would show more of the data",

@@ -145,6 +145,17 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
 void set_key(nlohmann::json& document, const std::string& key, const std::string& value) {
     nlohmann::json set = value_of(key, value);
     if (set.is_null()) return remove_key(document, key);
+    if (key == "mesh.scalar" || key == "mesh.array") {
+        throw UsageError(fmt::format(
+            "--set {}: expected scalar={}: the array of a mesh is a key of the scene itself", key,
+            shortened(value)));
+    }
+    // A file's name stands for an object with a path.
+    for (const char* const data : {"volume", "mesh"}) {
+        if (key.starts_with(std::string(data) + ".") && document.contains(data) &&
+            document[data].is_string())
+            document[data] = {{"path", document[data]}};
+    }
     nlohmann::json* node = &document;
     for (const std::string& part : parts_of(key)) {
         if (node->is_array()) {

@@ -25,8 +25,9 @@ using Size = std::array<std::int64_t, 3>;
 constexpr double least_equal = .95, least_with_inside = .5, least_by_one = .9;
 constexpr std::size_t most_nested = 4;  // values; so few may be nested structures
 // Share of equal samples, and number of samples, from and up to which a message names the signs
-// that labels cut out of larger volumes have.
-constexpr double least_scattered = .5;
+// that labels cut out of larger volumes have; and the share from which it does of larger volumes,
+// too, where counting costs more: few pictures reach it.
+constexpr double least_scattered = .5, nearly_equal = .9;
 constexpr std::int64_t most_scattered = std::int64_t{1} << 21;
 constexpr std::int64_t all_measured = std::int64_t{1} << 24;  // samples
 constexpr std::int64_t some_measured = std::int64_t{1} << 22, fewest_slices = 8;
@@ -70,8 +71,8 @@ class LabelMeasure {
         LabelSigns found;
         found.equal = static_cast<double>(equal_six_) / static_cast<double>(measured);
         const bool scattered = found.equal < least_equal;
-        if (!whole_ || (scattered && (found.equal < least_scattered || measured > most_scattered)))
-            return found;
+        const double least = measured > most_scattered ? nearly_equal : least_scattered;
+        if (!whole_ || (scattered && found.equal < least)) return found;
         for_bands([&](const auto&... band) { count_values(band...); });
         if (samples_.size() < 2 || samples_.size() > most_label_codes) return found;
         // The least of several.

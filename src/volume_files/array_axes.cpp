@@ -464,7 +464,10 @@ std::string names_text(const std::vector<std::string>& arrays) {
 
 std::string only_array(const std::vector<std::string>& arrays, const std::string& file) {
     if (arrays.empty())
-        fail("{}: found no array of three dimensions and more in it, expected one", file);
+        fail(
+            "{}: found no array of three dimensions and more in it, expected one; {}:/NAME takes "
+            "one of two",
+            file, file);
     if (arrays.size() > 1) {
         const std::string first = names_text({arrays.front()});
         fail("{}: found the arrays {}, expected one, as in {}:{}{}", file, names_text(arrays), file,

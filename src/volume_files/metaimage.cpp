@@ -133,10 +133,11 @@ class MetaImage {
     explicit MetaImage(const Path& path)
         : path_(path),
           fields_(path),
-          dimensions_(static_cast<std::size_t>(fields_.whole("NDims", 3, 4))),
+          dimensions_(static_cast<std::size_t>(fields_.whole("NDims", 2, 4))),
           sizes_(fields_.wholes("DimSize", dimensions_, 1, largest_size)) {
         if (fields_.text("HeaderSizePerSlice", "0") != "0")
             fields_.reject("HeaderSizePerSlice", "0");
+        if (sizes_.size() == 2) sizes_.push_back(1);  // one slice
     }
 
     void say_what_is_not_used() const {
@@ -162,10 +163,11 @@ class MetaImage {
         const auto spacing = numbers_of({"ElementSpacing", "ElementSize"}, ones);
         const auto rows = numbers_of({"TransformMatrix", "Rotation", "Orientation"}, unit);
         const auto origin = numbers_of({"Offset", "Position", "Origin"}, zeros);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < std::min<std::size_t>(dimensions_, 3); ++axis) {
             if (!(spacing[axis] > 0)) fields_.reject("ElementSpacing", "numbers above 0");
             const double* const row = &rows[axis * dimensions_];
-            grid.step[axis] = spacing[axis] * glm::dvec3(row[0], row[1], row[2]);
+            grid.step[axis] =
+                spacing[axis] * glm::dvec3(row[0], row[1], dimensions_ > 2 ? row[2] : 0);
             grid.origin[static_cast<int>(axis)] = origin[axis];
         }
         const std::string orientation = fields_.text("AnatomicalOrientation");

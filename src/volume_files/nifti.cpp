@@ -142,6 +142,11 @@ std::optional<NiftiHeader> header_of(const Path& path, const HeaderBytes& bytes,
         read_fields_2(bytes, header);
     else
         read_fields_1(bytes, header);
+    if (header.dim[0] == 2) {  // one slice
+        header.dim[0] = 3;
+        header.dim[3] = 1;
+        if (!(header.pixdim[3] > 0)) header.pixdim[3] = 1;
+    }
     header.data_path = magic == single ? path : image_path(path);
     const auto least = static_cast<std::int64_t>(second ? header2_bytes : header1_bytes);
     if (header.data_offset < (magic == single ? least : 0)) {
@@ -341,7 +346,7 @@ void check_dimensions(const NiftiHeader& header) {
             file, header.intent);
     }
     if (header.dim[0] < 3 || header.dim[0] > 7)
-        fail("{}: dim[0]: found {}, expected 3 axes to 7", file, header.dim[0]);
+        fail("{}: dim[0]: found {}, expected 2 axes to 7", file, header.dim[0]);
     for (std::size_t i = 1; i <= static_cast<std::size_t>(header.dim[0]); ++i) {
         if (i > 5 && header.dim[i] != 1) {
             fail(

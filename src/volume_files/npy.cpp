@@ -76,10 +76,11 @@ NpyArray npy_array(const std::filesystem::path& path, const std::string& name,
     if (!type || !ordered)
         header.wrong("descr",
                      "integers or floats of up to 64 bits, such as '<f4'" + numpy_advice(word));
-    const std::vector<std::int64_t> shape = header.shape();
-    if (shape.size() < 3 || shape.size() > 5 ||
+    std::vector<std::int64_t> shape = header.shape();
+    if (shape.size() < 2 || shape.size() > 5 ||
         std::ranges::any_of(shape, [](std::int64_t size) { return size < 1; }))
-        header.wrong("shape", "three to five numbers above 0, of which three are (z, y, x)");
+        header.wrong("shape", "two to five numbers above 0: (y, x) of one slice, or (z, y, x)");
+    if (shape.size() == 2) shape.insert(shape.begin(), 1);
     std::vector<StoredAxis> axes = npy_axes(name, shape, request);
     std::size_t axis = 3;
     for (const StoredAxis& each : axes)
@@ -186,7 +187,10 @@ class Npz {
     std::string first_volume() const {
         const std::vector<std::string> found = volumes(), all = names();
         if (found.empty())
-            fail("{}: found no array of three axes or more, expected one", path_.string());
+            fail(
+                "{}: found no array of three axes or more, expected one; \"array\" takes one of "
+                "two",
+                path_.string());
         if (all.size() > 1)
             say("{}: array \"{}\" of \"{}\" is taken: \"array\" in the volume names "
                 "another",

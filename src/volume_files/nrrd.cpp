@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <map>
 #include <set>
 #include <sstream>
@@ -567,6 +568,29 @@ void take_label_keys(const std::map<std::string, std::string>& keys, const Volum
     header.is_field = own != keys.end() && own->second == "linear";
 }
 
+// Makes two axes three, the last of one sample at a right angle to the others.
+void add_third_axis(Nrrd& nrrd) {
+    NrrdAxisInfo& third = nrrd.axis[2];
+    nrrd.dim = 3;
+    third.size = 1;
+    third.units = airStrdup(nrrd.axis[0].units);
+    if (!has_direction(nrrd, 0)) {
+        third.spacing = 1;
+        return;
+    }
+    if (nrrd.spaceDim == 2) {
+        nrrd.spaceDim = 3;
+        nrrd.axis[0].spaceDirection[2] = nrrd.axis[1].spaceDirection[2] = nrrd.spaceOrigin[2] = 0;
+        nrrd.spaceUnits[2] = airStrdup(nrrd.spaceUnits[0]);
+    }
+    const auto direction = [&](unsigned axis) {
+        const double* const of = nrrd.axis[axis].spaceDirection;
+        return glm::dvec3(of[0], of[1], of[2]);
+    };
+    const glm::dvec3 normal = glm::normalize(glm::cross(direction(0), direction(1)));
+    for (int i = 0; i < 3; ++i) third.spaceDirection[i] = normal[i];
+}
+
 NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeRequest& request) {
     const std::string name = path.string();
     if (const char* const reason = why_not_regular(path)) fail("{}: {}", name, reason);
@@ -586,6 +610,7 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeReque
             fail("{}: the NRRD header has no '{}' field", name, field);
     if (bad) fail("{}: bad NRRD header: {}", name, reason);
 
+    if (nrrd->dim == 2) add_third_axis(*nrrd);
     NrrdHeader header;
     header.grid = nrrd_grid(name, *nrrd, text.fields.contains("spacings"));
     StoredData& data = header.data;

@@ -388,11 +388,12 @@ std::optional<SampleType> drawn_type(ValueType type) {
 bool taken_by_signs(const std::string& file, const LabelSigns& signs) {
     using Verdict = LabelSigns::Verdict;
     if (signs.verdict == Verdict::none) return false;
-    const std::string equal =
-        fmt::format("{:.3g} % of them equal their six neighbours", 100 * signs.equal);
+    double share = 100 * signs.equal;
+    if (signs.verdict == Verdict::scattered && share > 94.9) share = 94.9;  // is fewer than 95
+    const std::string equal = fmt::format("{:.3g} % of them equal their six neighbours", share);
     if (signs.are_labels()) {
         say("{}: its samples are taken for labels, as {}; \"lookup\": \"linear\" in "
-            "the volume would interpolate between them",
+            "the volume (--set volume.lookup=linear) would interpolate between them",
             file, equal);
         return true;
     }
@@ -403,8 +404,9 @@ bool taken_by_signs(const std::string& file, const LabelSigns& signs) {
                   "as {}, but {:.3g} % of unequal neighbours differ by 1, as in a smooth "
                   "field that was rounded",
                   equal, 100 * signs.by_one);
-    say("{}: its samples look like labels, {}: they are taken for a field, and "
-        "\"lookup\": \"nearest\" in the volume takes them for labels",
+    say("{}: its samples look like labels, {}: they are taken for a field, which mixes "
+        "labels where they meet; \"lookup\": \"nearest\" in the volume (--set "
+        "volume.lookup=nearest) takes them for labels",
         file, but);
     return false;
 }

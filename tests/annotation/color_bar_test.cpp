@@ -113,7 +113,8 @@ TEST(ColorBar, ReachesOverTheValuesThatShow) {
     EXPECT_EQ(range(hill, 60, 90), std::pair(60.0, 90.0));  // nothing shows: all of the data
     const TransferFunction two = TransferFunction::linear(
         {knot(0, white, 1), knot(1, white, 0), knot(5, white, 0), knot(6, white, 1)});
-    EXPECT_EQ(range(two, -2, 9), std::pair(-2.0, 9.0));
+    EXPECT_EQ(range(two, -2, 9), std::pair(0.0, 6.0));  // beyond there is one colour
+    EXPECT_EQ(range(two, 7, 9), std::pair(7.0, 9.0));
     EXPECT_EQ(range(two, 0.5, 5.5), std::pair(0.5, 5.5));
     const TransferFunction step = TransferFunction::linear({knot(3, white, 0), knot(3, white, 7)});
     EXPECT_EQ(range(step, 0, 8), std::pair(3.0, 8.0));

@@ -46,6 +46,17 @@ TEST(AnnotationLayer, IsThereOnlyIfSomethingIsWanted) {
     EXPECT_EQ(layer->height, 200);
 }
 
+TEST(AnnotationLayer, HasNoColorBarIfNothingShows) {
+    Scene scene = plain_scene();
+    scene.annotations.colorbar = Annotation{};
+    AnnotatedData data = plain_data();
+    data.range = {-3, -1};
+    const test::HeardWarnings heard;
+    const auto layer = annotation_layer(scene, data, Image(300, 200));
+    EXPECT_TRUE(std::ranges::all_of(layer->rgba, [](float number) { return number == 0; }));
+    EXPECT_NE(heard.all().find("shows none of the data's values"), std::string::npos);
+}
+
 // The contrast ratio of WCAG 2 between ink and background; it asks for 3 of large text.
 TEST(AnnotationLayer, InkIsReadableOnEveryBackground) {
     for (int red = 0; red <= 255; red += 51) {
@@ -138,7 +149,12 @@ TEST(AnnotationLayer, SaysWhatItCannotShow) {
     EXPECT_EQ(said(scene, plain_data()), "");
     scene.annotations.title = titled("Schädel, von vorn und von oben");
     scene.annotations.title->size = 4;
-    EXPECT_NE(said(scene, plain_data()).find("image.annotations.title"), std::string::npos);
+    EXPECT_NE(said(scene, plain_data())
+                  .find("title: is too long for a picture 300 pixels wide, "
+                        "and is written smaller"),
+              std::string::npos);
+    scene.annotations.title = titled(std::string(200, 'x') + "\nshort");
+    EXPECT_NE(said(scene, plain_data()).find("pixels wide, and is cut"), std::string::npos);
     scene = plain_scene();
     scene.annotations.labels = Annotation{};
     EXPECT_NE(said(scene, plain_data()).find("no labels"), std::string::npos);
@@ -194,6 +210,18 @@ TEST(AnnotationLayer, LeavesOutWhatDoesNotFitInTheOrderOfImportance) {
     EXPECT_EQ(left_out(300, 200, texts), Keys{"texts.0"});
 }
 
+// The axes may take 7.2 ems of 9 pixels, 65, beside a gap of 7.2: 144.4 pixels are twice as many.
+TEST(AnnotationLayer, LeavesOutAxesThatWouldReachTheMiddle) {
+    using Keys = std::vector<std::string>;
+    Annotations axes;
+    axes.axes = Annotation{};
+    EXPECT_EQ(left_out(145, 145, axes), Keys{});
+    EXPECT_EQ(left_out(144, 145, axes), Keys{"axes"});
+    EXPECT_EQ(left_out(400, 144, axes), Keys{"axes"});
+    axes.axes->size = .5;
+    EXPECT_EQ(left_out(144, 144, axes), Keys{});
+}
+
 // Blocks that take_misfits() leaves lie in the picture, and no two of them overlap.
 TEST(AnnotationLayer, WhatStaysDoesNotOverlap) {
     for (int width = 20; width <= 400; width += 20) {
@@ -221,6 +249,24 @@ TEST(AnnotationLayer, WhatStaysDoesNotOverlap) {
             for (std::size_t j = 0; j < i; ++j)
                 EXPECT_FALSE(overlap(places[i], places[j])) << width;
         }
+    }
+}
+
+// A title that is written smaller fits; its letters keep 9 pixels, and a longer one is cut.
+TEST(AnnotationLayer, LongTitlesFit) {
+    const Scene scene = plain_scene();
+    const AnnotationStyle style(scene);
+    Font font;
+    Pen pen(style, font, nullptr);
+    double before = 1e9;
+    for (const std::size_t length : {10, 45, 60, 100, 1000}) {
+        const Block block =
+            text_block(pen, titled(std::string(length, 'x')), 12, "title", AnnotationPosition::top);
+        EXPECT_LE(block.size.x, 300 - 2 * style.gap) << length;
+        EXPECT_LE(block.size.y, before) << length;
+        EXPECT_GE(block.size.y, 9) << length;
+        EXPECT_EQ(block.note.empty(), length == 10) << block.note;
+        before = block.size.y;
     }
 }
 

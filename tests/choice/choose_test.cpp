@@ -291,6 +291,37 @@ TEST(Choose, DegenerateDataGetFiniteCamerasAndFunctions) {
         "a single voxel");
 }
 
+// A margin of another label would hide what is inside of it.
+TEST(Choose, LeavesOutAMarginAroundLabels) {
+    Grid grid = test::grid_of({24, 24, 24}, Centering::node);
+    grid.lookup = VolumeLookup::nearest;
+    const auto chosen = [&](double margin, double inside) {
+        const Volume volume =
+            test::volume_of<std::uint8_t>(grid, [&](double i, double j, double k) {
+                const double least = std::min({i, j, k}), most = std::max({i, j, k});
+                return least < 2 || most > 21 ? margin : least > 6 && most < 15 ? 3 : inside;
+            });
+        const MinMaxBricks bricks = measure_bricks(volume);
+        return choose(open_scene(), VolumeField(volume, bricks), {});
+    };
+    const auto shows = [](const Choices& choices, double label) {
+        return choices.scene.transfer_function->at(label).extinction > 0;
+    };
+    const Choices with_zero = chosen(7, 0);
+    EXPECT_FALSE(shows(with_zero, 0));
+    EXPECT_FALSE(shows(with_zero, 7));
+    EXPECT_TRUE(shows(with_zero, 3));
+    EXPECT_NE(chosen_text(with_zero.reasons).find("and so is 7, which lies around the others"),
+              std::string::npos)
+        << chosen_text(with_zero.reasons);
+    const Choices without = chosen(7, 1);  // 1 is more frequent
+    EXPECT_FALSE(shows(without, 7));
+    EXPECT_TRUE(shows(without, 1));
+    EXPECT_TRUE(shows(chosen(7, 7), 3));
+    const Choices nothing_else = chosen(3, 0);
+    EXPECT_TRUE(shows(nothing_else, 3));
+}
+
 // Noise of few values is a field, and pieces of few values are labels.
 TEST(Choose, TellsFewValuesOfNoiseFromLabels) {
     const auto reason_of = [](const auto& value) {

@@ -162,7 +162,8 @@ TEST(ConstantBorder, IsSaidAndKeptIfAsked) {
     const Volume volume = bordered<std::uint8_t>(255, Widths::all(2));
     const auto said = [](const Choices& choices) {
         return std::ranges::any_of(choices.reasons, [](const std::string& reason) {
-            return reason.find("border of 255, up to 2 samples wide") != std::string::npos;
+            return reason.find("border of 255, up to 2 samples wide, is cut away") !=
+                   std::string::npos;
         });
     };
     EXPECT_TRUE(said(chosen_for(volume)));
@@ -329,6 +330,28 @@ TEST(ConstantBorder, IsNotTheAirAroundAThing) {
     EXPECT_FALSE(border_around(0, box));
     EXPECT_FALSE(border_around(700, ball));
     EXPECT_TRUE(border_around(700, box));
+}
+
+// A crop along x that ends inside the border leaves the border along y and z.
+TEST(ConstantBorder, IsNamedIfACropLeavesIt) {
+    const Volume volume = bordered<std::int16_t>(3000, Widths::all(5));
+    Adjustments crop;
+    crop.own_crop = true;
+    const auto reasons_of = [&](int axes) {
+        Scene scene = test::open_scene();
+        for (int axis = 0; axis < axes; ++axis) {
+            glm::dvec3 last(0), along(0);
+            last[axis] = edge - 1;
+            along[axis] = 1;
+            scene.clip.planes.push_back({glm::dvec3(0), along});
+            scene.clip.planes.push_back({last, -along});
+        }
+        return chosen_text(chosen_for(volume, scene, crop).reasons);
+    };
+    const std::string said = "clip: a border of 3000, up to 5 samples wide, is kept";
+    EXPECT_NE(reasons_of(0).find(said), std::string::npos);
+    EXPECT_NE(reasons_of(1).find(said), std::string::npos);
+    EXPECT_EQ(reasons_of(3).find("border"), std::string::npos);
 }
 
 }  // namespace

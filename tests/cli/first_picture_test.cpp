@@ -271,6 +271,29 @@ TEST_F(FirstPicture, OddDataGiveAPictureOrOneLine) {
     EXPECT_FALSE(std::filesystem::exists(folder / "x.json"));
 }
 
+TEST_F(FirstPicture, HaveNoAnnotationsInNpyWhichIsSaid) {
+    const std::string volume = generated("gaussians"), said = "NPY holds the picture's numbers";
+    EXPECT_NE(render(volume, "a.npy", {"--title", "a"}).find(said), std::string::npos);
+    EXPECT_NE(render(volume, "a.npy", {"--title", "a", "--method", "trace"}).find(said),
+              std::string::npos);
+    EXPECT_EQ(render(volume, "a.exr", {"--title", "a"}).find(said), std::string::npos);
+    EXPECT_EQ(render(volume, "b.npy").find(said), std::string::npos);
+}
+
+TEST_F(FirstPicture, AreNotScenes) {
+    const std::string volume = generated("gaussians");
+    for (const char* const name : {"s.png", "s.EXR", "s.jpg", "s.mp4"}) {
+        const ProgramResult result = lamina_run({"scene", volume, "-o", folder / name});
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_NE(result.err.find("is a picture's name, and a scene is JSON"), std::string::npos)
+            << result.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / name));
+    }
+    const ProgramResult data = lamina_run({"scene", volume, "-o", folder / "s.nii.gz"});
+    EXPECT_EQ(data.exit_code, 2);
+    EXPECT_NE(data.err.find("is a data file's name"), std::string::npos) << data.err;
+}
+
 TEST_F(FirstPicture, ATurntableIsFittedAllAround) {
     // A rod, seen from its end in the first view.
     std::string values;

@@ -90,6 +90,25 @@ TEST_F(SameWarnings, AreGivenForColorsThatTheTargetClamps) {
     expect_both_say(scene, "1 transfer-function points have a colour above 1");
 }
 
+// The unit box's diagonal is the longest ray: the largest opacity is below 3^.5 times the
+// extinction, .0099, and .0002 of the second one, which is less than half a code.
+TEST_F(SameWarnings, AreGivenForPicturesThatShowAlmostNothing) {
+    json scene = gaussians_scene(12, 24, 18, 4);
+    json& extinction = scene["transfer_function"]["points"][1]["extinction"];
+    extinction = .0057;
+    expect_both_say(scene, "the picture shows almost nothing: the largest opacity is 0.00");
+    expect_both_say(traced(scene), "the picture shows almost nothing: the largest opacity is 0.00");
+    extinction = .0001;
+    expect_both_say(scene, "the picture shows nothing: the largest opacity is ");
+    expect_both_say(scene, " times as much (--density) gives 0.9");
+}
+
+TEST_F(SameWarnings, AreGivenForABackgroundOfCodes) {
+    json scene = gaussians_scene(12, 24, 18, 4);
+    scene["image"]["background"] = {255, 255, 255};
+    expect_both_say(scene, "image.background: found 255, 255, 255: colours are from 0 to 1");
+}
+
 TEST_F(SameWarnings, AreGivenForNonFiniteSamples) {
     json scene = volume_scene(
         "type: float\nsizes: 3 2 2\nencoding: ascii\n\n1 2 250 4 5 6 7 nan 9 80 200 30\n");

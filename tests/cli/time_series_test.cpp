@@ -146,6 +146,12 @@ TEST_F(TimeSeriesRun, MistakesOfUsageExitWith2) {
         EXPECT_EQ(run("scene.json", time).exit_code, 2) << time;
     EXPECT_EQ(run("scene.json", "0:1", {"--frames", "2"}).exit_code, 2);
     EXPECT_EQ(run("scene.json", "0:999999").exit_code, 2);
+    const ProgramResult one =
+        lamina_run({"render", folder / "scene.json", "-o", folder / "a.png", "--time", "1"});
+    EXPECT_EQ(one.exit_code, 2);
+    EXPECT_NE(one.err.find("--set volume.time=1 (of a mesh mesh.time) draws one step"),
+              std::string::npos)
+        << one.err;
     EXPECT_EQ(lamina_run({"render", folder / "scene.json", "-o", folder / "a.png", "--time", "0:1"})
                   .exit_code,
               2);

@@ -128,6 +128,12 @@ TEST_F(WordsRun, OptionsThatAreWrongAreNamed) {
     };
     expect({"--size", "20x10"}, "--size: found 2 times, expected once");
     expect({"--colourmap", "greys"}, "--colourmap: no such option, did you mean \"--colormap\"?");
+    expect({"--titel", "x"}, "--titel: no such option, did you mean \"--title\"?");
+    expect({"--set", "mesh.scalar=p"}, "--set mesh.scalar: expected scalar=p: the array of a mesh");
+    expect({"--max-error", ".1"},
+           "--max-error: no such option, did you mean --set render.max_error=VALUE?");
+    expect({"--set", "max_error=.1"},
+           "--set max_error: unknown key, did you mean \"render.max_error\"?");
     expect({"--nothing-like-it"}, "--nothing-like-it: no such option (");
     expect({"-size", "20x10"},
            "-size: no such option, did you mean \"--size\"? (lamina render --help");
@@ -136,6 +142,8 @@ TEST_F(WordsRun, OptionsThatAreWrongAreNamed) {
     EXPECT_NE(bare.err.find("x.png: not expected here, did you mean -o x.png?"), std::string::npos);
     EXPECT_NE(lamina_run({"rendr"}).err.find("rendr: unknown verb, did you mean \"render\"?"),
               std::string::npos);
+    EXPECT_EQ(lamina_run({"help", "render"}).out, lamina_run({"render", "--help"}).out);
+    EXPECT_EQ(lamina_run({"help"}).out, lamina_run({"--help"}).out);
     EXPECT_NE(lamina_run({}).err.find("expected a verb, one of compare, "), std::string::npos);
     EXPECT_NE(lamina_run({"--hepl"}).err.find("--hepl: expected a verb, one of compare, "),
               std::string::npos);

@@ -161,7 +161,7 @@ def test_float32_says_what_it_cannot_hold():
 
 
 @pytest.mark.parametrize("array, error, message", [
-    (np.zeros((4, 5)), ValueError, r"shape \(4, 5\), expected three axes \(z, y, x\)"),
+    (np.zeros(4), ValueError, r"shape \(4,\), expected three axes \(z, y, x\), or two \(y, x\) of one slice"),
     (np.zeros((2, 3, 4, 5)), ValueError, r"shape \(2, 3, 4, 5\), expected three axes"),
     (np.zeros((0, 3, 4)), ValueError, r"shape \(0, 3, 4\), expected one sample or more"),
     (np.zeros((2, 2, 2), object), TypeError, "type object, expected whole or floating-point numbers"),
@@ -335,6 +335,21 @@ def test_labels_in_arrays_have_their_numbers_too():
         halves = lamina.Volume(np.full((2, 2, 2), .5, np.float32), lookup="nearest")
     assert small.dtype == np.uint8 and small.labels == {}
     assert halves.dtype == np.float32 and halves.lookup == "nearest"
+
+
+def test_arrays_that_look_like_labels_are_named():
+    def said(array, **keywords):
+        with warnings.catch_warnings(record=True) as found:
+            warnings.simplefilter("always")
+            lamina.render(lamina.Volume(array, **keywords), size=(8, 8), context="cpu")
+        return any("look like labels" in str(one.message) for one in found)
+
+    stored = np.zeros((40, 40, 40), np.uint8)
+    stored[10:20, 10:20, 10:20] = 7
+    assert said(stored) and said(stored.astype(float)) and said(stored.astype(int) * 10000)
+    assert not said(stored, lookup="nearest")
+    assert not said(stored > 0)  # a mask is a field as well
+    assert not said(np.random.default_rng(1).integers(0, 200, (40, 40, 40)))
 
 
 def test_what_is_taken_for_labels_is_said(tmp_path):

@@ -61,3 +61,9 @@ def test_a_camera_that_sees_nothing_is_an_error(blob):
 def test_angles_that_are_no_numbers_are_named(blob):
     with pytest.raises(TypeError, match="azimuth: found 'x', expected a number"):
         lamina.Camera.orbit(blob, azimuth="x")
+
+
+def test_cameras_of_arrays_are_refused(blob):
+    for make in (lamina.Camera.orbit, lamina.Camera.fit):
+        with pytest.raises(TypeError, match="data: found ndarray, expected a lamina.Volume or a lamina.Mesh"):
+            make(blob.array)

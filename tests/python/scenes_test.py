@@ -49,6 +49,10 @@ def test_lighting(blob, function):
 
 
 @pytest.mark.parametrize("scene, keywords, error, message", [
+    (SCENE, {"title": "a"}, TypeError, "unexpected keyword 'title', which annotations"),
+    (SCENE, {"legend": True}, TypeError, "unexpected keyword 'legend', expected annotations"),
+    (SCENE, {"lookup": "nearest"}, TypeError, "unexpected keyword 'lookup', which lamina.Volume takes"),
+    (SCENE, {"set": {"mesh.scalar": "p"}}, ValueError, "mesh.scalar: expected 'scalar'"),
     (SCENE, {"cmaera": 1}, TypeError, "unexpected keyword 'cmaera', did you mean 'camera'"),
     (SCENE, {"method": "splat"}, lamina.Error, "scene: render.method: found \"splat\", expected one of \"slice\""),
     (SCENE, {"slice": {"smaples": 3}}, lamina.Error, "render.slice.smaples.*samples"),
@@ -113,6 +117,9 @@ def test_nothing_half_is_left(blob, tmp_path):
     (tmp_path / "folder").mkdir()
     with pytest.raises(lamina.Error, match="folder: cannot write"):
         lamina.Scene(SCENE).save(tmp_path / "folder")
+    with pytest.raises(lamina.Error, match=r's\.png: found the suffix "\.png", expected a name as s\.json'):
+        lamina.Scene(SCENE).save(tmp_path / "s.png")
+    assert not (tmp_path / "s.png").exists()
     assert [file.name for file in tmp_path.iterdir()] == ["folder"]
 
 

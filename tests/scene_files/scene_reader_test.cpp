@@ -114,6 +114,10 @@ TEST(SceneReader, SetReachesKeysAndListElements) {
     nlohmann::json document = minimal_scene();
     set_key(document, "render.slice.samples", "512");
     set_key(document, "render.target", "fixed8");
+    nlohmann::json named{{"volume", "a.nrrd"}};  // stands for an object with a path
+    set_key(named, "volume.channel", "1");
+    EXPECT_EQ(named["volume"], nlohmann::json({{"path", "a.nrrd"}, {"channel", 1}}));
+    EXPECT_THROW(set_key(named, "mesh.scalar", "p"), UsageError);
     set_key(document, "camera.eye", "[1, 2, 3]");
     set_key(document, "transfer_function.points.1.opacity", "0.25");
     const Scene scene = read_scene(document, "s");

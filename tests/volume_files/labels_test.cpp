@@ -209,7 +209,7 @@ TEST_F(LabelFiles, ThatLookLikeLabelsButAreTakenForAFieldAreNamed) {
     expect_said("row.nrrd: its samples look like labels, but only 85 % of them equal their six");
     EXPECT_EQ(read_volume(row<std::int32_t>("int32", {0, 90000, 4, 70000}, 10)).grid().lookup,
               VolumeLookup::linear);
-    expect_said("\"lookup\": \"nearest\" in the volume takes them for labels");
+    expect_said("(--set volume.lookup=nearest) takes them for labels");
     read_volume(row("int32", steps, 60), as_linear());
     EXPECT_TRUE(heard_.texts.empty());
 }

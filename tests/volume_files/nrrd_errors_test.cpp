@@ -100,9 +100,9 @@ TEST_F(NrrdErrors, NameUnsupportedTypesAndEncodings) {
 
 TEST_F(NrrdErrors, RefuseWhatHasNotThreeAxes) {
     expect_bad(
-        write("a.nrrd", "NRRD0004\ntype: uint8\ndimension: 2\nsizes: 4 3\nencoding: raw\n\n" +
+        write("a.nrrd", "NRRD0004\ntype: uint8\ndimension: 1\nsizes: 12\nencoding: raw\n\n" +
                             std::string(12, 'x')),
-        {"found 2 axes", "expected 3"});
+        {"found 1 axes", "expected 3"});
     expect_bad(
         write("a.nrrd", "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 3 4 3 2\nencoding: raw\n\n" +
                             std::string(72, 'x')),

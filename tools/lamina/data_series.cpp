@@ -68,8 +68,12 @@ TimeRange time_range(const std::string& text) {
     if (good) range = {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 1};
     if (!good || range.last < range.first || range.step < 1) {
         throw UsageError(fmt::format(
-            "--time {}: expected FIRST:LAST or FIRST:LAST:STEP, whole numbers as in 0:99:3",
-            shortened(text)));
+            "--time {}: expected FIRST:LAST or FIRST:LAST:STEP, whole numbers as in 0:99:3{}",
+            shortened(text),
+            numbers.size() == 1
+                ? fmt::format("; --set volume.time={} (of a mesh mesh.time) draws one step",
+                              numbers[0])
+                : ""));
     }
     if ((range.last - range.first) / range.step >= most_steps) {
         throw UsageError(fmt::format("--time {}: found {} steps, expected at most {}", text,

@@ -25,6 +25,7 @@
 #include "git_commit.h"
 #include "lamina/words.h"
 #include "mesh_files/mesh_file.h"
+#include "shared_options.h"
 #include "simd/instruction_set.h"
 #include "volume_files/volume_file.h"
 
@@ -108,6 +109,15 @@ std::vector<char*> with_verb(const CLI::App& app, int argc, char** argv) {
     }
     if (is_option) return arguments;
     const std::string first = argv[1];
+    if (first == "help") {  // "help VERB" is "VERB --help"
+        static char help[] = "--help";
+        arguments.erase(arguments.begin() + 1);
+        arguments.resize(std::min<std::size_t>(arguments.size(), 2));
+        arguments.push_back(help);
+        return arguments.size() == 2
+                   ? arguments
+                   : with_verb(app, static_cast<int>(arguments.size()), arguments.data());
+    }
     bool can_view = false;
     for (const CLI::App* const verb : app.get_subcommands({})) {
         if (verb->get_name() == first) return arguments;
@@ -196,7 +206,14 @@ std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
         // A list of all options would say less than --help. -size is --size with a dash missing.
         const std::string whole = first.substr(0, first.find('='));
         const bool is_word = !whole.starts_with("--") && whole.size() > 2;
-        const std::string near = suggestion(known, (is_word ? "-" : "") + whole);
+        const std::string meant = (is_word ? "-" : "") + whole;
+        if (verb->get_option_no_throw("--set") != nullptr && !known.contains(meant)) {
+            std::string word = whole.substr(whole.find_first_not_of('-'));
+            std::ranges::replace(word, '-', '_');
+            if (const std::string key = scene_key_named(word); !key.empty())
+                return fmt::format("{}: no such option, did you mean --set {}=VALUE?", first, key);
+        }
+        const std::string near = suggestion(known, meant);
         return fmt::format("{}: no such option{}", first, near.starts_with(", did") ? near : "");
     }
     return text;

@@ -36,6 +36,12 @@ std::unique_ptr<OutputFile> open_file(const std::string& output) {
     return open_named(output);
 }
 
+template <typename Real>
+void warn_of_annotations(const RgbaImage<Real>& image) {
+    if (image.annotations != nullptr)
+        warn("image.annotations: NPY holds the picture's numbers alone; PNG and EXR have them");
+}
+
 // Output of one picture: the scene's own. With --frames it also times further frames.
 class SinglePicture : public RenderOutput {
   public:
@@ -109,6 +115,7 @@ std::size_t PictureFile::write(const Image& image, const PngLook& look,
             clamped = write_png(*file_, image, look, space);
             break;
         case PictureFormat::npy:
+            warn_of_annotations(image);
             write_npy(*file_, image);
             break;
     }
@@ -119,6 +126,7 @@ std::size_t PictureFile::write(const Image& image, const PngLook& look,
 std::size_t PictureFile::write(const PreciseImage& image, const PngLook& look,
                                const PictureAttributes& attributes, ImageColorSpace space) {
     if (format_ != PictureFormat::npy) return write(to_float(image), look, attributes, space);
+    warn_of_annotations(image);
     write_npy(*file_, image);
     file_->commit();
     return 0;
@@ -133,6 +141,7 @@ void OutputOptions::check() const {
     if (views > 0 && output.empty()) throw UsageError("--turntable: expected -o FILE, too");
     if (time && (views > 0 || frames > 0))
         throw UsageError("--time: expected neither --turntable nor --frames beside it");
+    if (time) time_range(*time);  // throws UsageError
     if (!path.empty() && output.empty()) throw UsageError("--path: expected -o FILE, too");
     if (!path.empty() && (views > 0 || frames > 0 || time))
         throw UsageError("--path: expected neither --turntable, --time nor --frames beside it");

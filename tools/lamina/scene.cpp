@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/client.h"
+#include "base/error.h"
 #include "base/json_text.h"
 #include "base/process.h"
+#include "image/film_file.h"
+#include "image/picture.h"
 #include "output_files.h"
 #include "render/pipeline.h"
 #include "scene/given_transfer.h"
@@ -54,7 +59,26 @@ void expect_utf8(const std::filesystem::path& file) {
     fail("{}: its name is not UTF-8, which a scene cannot hold: expected another name", name);
 }
 
+// Throws UsageError for the names of pictures and films, which people mean for `lamina render`, and
+// of data.
+void expect_scene_name(const std::string& output) {
+    const std::string suffix = lower_suffix(output);
+    constexpr std::array pictures{".png", ".exr", ".npy", ".jpg", ".jpeg", ".tif", ".tiff"};
+    constexpr std::array data{".nrrd", ".nhdr", ".nii", ".gz",  ".mha", ".mhd",  ".vti",
+                              ".vtu",  ".vtk",  ".raw", ".dcm", ".h5",  ".zarr", ".node"};
+    if (std::ranges::find(pictures, suffix) != pictures.end() || film_format_of(output) != nullptr)
+        throw UsageError(
+            fmt::format("-o {}: is a picture's name, and a scene is JSON: expected a name as "
+                        "s.json (\"lamina render\" draws pictures)",
+                        output));
+    if (std::ranges::find(data, suffix) != data.end())
+        throw UsageError(fmt::format(
+            "-o {}: is a data file's name, and a scene is JSON: expected a name as s.json",
+            output));
+}
+
 void run(const SceneVerbOptions& options) {
+    expect_scene_name(options.output);
     nlohmann::json document;
     const Scene asked = load_scene(options.scene, settings_of(options.view), document);
     if (const VolumeFile* const volume = asked.volume_file()) expect_utf8(volume->path);

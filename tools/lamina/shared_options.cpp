@@ -24,6 +24,7 @@
 #include "output_files.h"
 #include "render/pipeline.h"
 #include "scene_files/keys.h"
+#include "scene_files/scene_keys.h"
 #include "scene_files/scene_reader.h"
 #include "volume_files/numbered_files.h"
 
@@ -182,11 +183,6 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
     document = piped ? load_json_from_stdin() : scene_document(file, request);
     std::vector<std::string> keys;
     const auto apply = [&](const std::string& key, const std::string& value) {
-        // A volume or a mesh is an object in JSON if it has other settings than its path.
-        const char* const source = key.starts_with("volume.") ? "volume" : "mesh";
-        const bool chooses = key.starts_with("volume.") || key == "mesh.time";
-        if (chooses && document.contains(source) && document[source].is_string())
-            document[source] = {{"path", document[source]}};
         if (!set_annotation(document, key, value)) set_key(document, key, value);
         keys.push_back(key);
     };
@@ -210,11 +206,40 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
         for (const std::string& key : keys) {
             if (error.key == key || key.starts_with(error.key + ".") ||
                 error.key.starts_with(key + ".")) {
-                throw UsageError(error.what());
+                const std::string inner = dynamic_cast<const UnknownKeyError*>(&error) != nullptr &&
+                                                  key.find('.') == key.npos
+                                              ? scene_key_named(key)
+                                              : "";
+                throw UsageError(
+                    inner.empty()
+                        ? error.what()
+                        : fmt::format("--set {}: unknown key, did you mean \"{}\"?", key, inner));
             }
         }
         throw;
     }
+}
+
+std::string scene_key_named(const std::string& word) {
+    std::vector<std::pair<std::string, nlohmann::json>> level{
+        {"", parse_json(scene_schema_text())}};
+    while (!level.empty()) {
+        decltype(level) below;
+        for (const auto& [path, schema] : level) {
+            for (const char* const choice : {"anyOf", "oneOf"}) {
+                for (const auto& one : schema.value(choice, nlohmann::json::array()))
+                    below.emplace_back(path, one);
+            }
+            if (!schema.contains("properties")) continue;
+            for (const auto& [key, inner] : schema["properties"].items()) {
+                const std::string whole = path.empty() ? key : path + "." + key;
+                if (key == word) return whole;
+                below.emplace_back(whole, inner);
+            }
+        }
+        level = std::move(below);
+    }
+    return "";
 }
 
 nlohmann::ordered_json document_of(const Scene& scene, const nlohmann::json& document) {

@@ -53,6 +53,10 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
 // the scene's method.
 nlohmann::ordered_json document_of(const Scene& scene, const nlohmann::json& document);
 
+// Returns the path of the key of scenes that has this name, as "render.max_error" for "max_error",
+// the outermost of several; empty if there is none.
+std::string scene_key_named(const std::string& word);
+
 // Returns width and height of an option's value WxH, 1 to 16384 each. Throws UsageError.
 std::pair<int, int> pixels_of(const char* option, const std::string& text);
 
