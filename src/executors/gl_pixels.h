@@ -7,6 +7,7 @@
 
 #include "gl/api.h"
 #include "gl/program.h"
+#include "gl/sync.h"
 #include "lamina/image.h"
 #include "plan/compositing_plan.h"
 
@@ -50,7 +51,7 @@ class GlPixels {
     int width_, height_, row_words_;
     gl::Buffer words_;
     // read() keeps the following, so that no frame allocates.
-    mutable std::vector<std::uint32_t> read_words_;
+    mutable gl::ReadBack reading_;
     mutable std::vector<float> values_;  // the values of all numbers of 8 or 16 bits
     mutable double largest_ = 0;         // the largest code, for which these are
 };

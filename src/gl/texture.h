@@ -53,10 +53,7 @@ class Texture {
     void set_filter(TextureFilter filter);
     void bind(unsigned unit) const;
 
-    // Reads all texels as RGBA floats, x fastest, then y, then z; row 0 is the bottom one, as in
-    // OpenGL. The format must not be rgba16i. Absent channels read as 0, absent alpha as 1.
-    std::vector<float> read_rgba() const;
-    void read_rgba(std::span<float> rgba) const;  // `rgba` has exactly 4 floats for each texel
+    std::vector<float> read_rgba() const;  // waits for ReadBack::take()
 
     unsigned id() const { return handle_.id(); }
     TextureFormat format() const { return format_; }

@@ -159,7 +159,7 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
       pace_(rounds_of(plan_, tables_.intervals())) {
     const std::size_t tiles = EntryTiles::count(width) * EntryTiles::count(height);
     rays_ = gl::Buffer(std::min(most_tiles_, tiles) * bytes_of_tile);
-    unfinished_ = gl::Buffer(sizeof(std::uint32_t));
+    unfinished_ = gl::Buffer::make_readable(sizeof(std::uint32_t));
     const Stage uploading("upload mesh");
     upload_tets();
     upload_points();
@@ -328,7 +328,8 @@ void GlMeshWalk::draw(const View& view, Progress* progress) {
             program_.set("rounds", pace_.rounds());
             unfinished_.clear();
             program_.dispatch(static_cast<int>(count));
-            unfinished_.read(std::span(&unfinished, 1));
+            counting_.take(unfinished_);
+            unfinished = counting_.values<std::uint32_t>().front();
             if (!capabilities.software)
                 pace_.took(watch.milliseconds(), begins == 1 && unfinished > 0);
             check_interrupt();

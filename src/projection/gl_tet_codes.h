@@ -11,6 +11,7 @@
 #include "executors/gl_pixels.h"
 #include "gl/program.h"
 #include "gl/texture.h"
+#include "gl/sync.h"
 #include "gl/timeline.h"
 #include "projection/gl_project_renderer.h"
 #include "projection/project_renderer.h"

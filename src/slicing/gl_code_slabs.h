@@ -5,7 +5,7 @@
 #include "executors/gl_code_tree.h"
 #include "executors/gl_pixels.h"
 #include "gl/texture.h"
-#include "gl/timeline.h"
+#include "gl/sync.h"
 #include "plan/capabilities.h"
 #include "slicing/gl_march.h"
 

@@ -10,7 +10,7 @@
 #include "executors/gl_pixels.h"
 #include "gl/api.h"
 #include "gl/program.h"
-#include "gl/timeline.h"
+#include "gl/sync.h"
 #include "plan/capabilities.h"
 #include "slicing/gl_march.h"
 #include "slicing/gl_slab_source.h"

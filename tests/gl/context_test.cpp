@@ -168,7 +168,7 @@ int wrong_pixels(Context& context, int first_value, std::barrier<>& together) {
             }
         }
     }
-    return wrong + (bytes_allocated() != 37 * 23 * 16);
+    return wrong + (bytes_allocated() != 2 * 37 * 23 * 16);  // the picture and its copy
 }
 
 TEST(Context, TwoInTwoThreadsDrawIndependently) {
@@ -227,7 +227,7 @@ TEST(Context, TwoTakeTurnsInOneThread) {
             EXPECT_EQ(current_context(), outer.get());
         }
         EXPECT_EQ(current_context(), outer.get());
-        EXPECT_EQ(bytes_allocated(), 3 * 2 * 16);
+        EXPECT_EQ(bytes_allocated(), 2 * 3 * 2 * 16);  // the target and its copy
         EXPECT_EQ(target.read_back().pixel(2, 1)[3], .5f);
     }
 }
