@@ -63,7 +63,7 @@ class GlShaderTree : public GlMarchedPicture {
     std::optional<gl::Program> leaf_, node_, root_node_;
     GlMarch march_;
     GlPixels picture_;
-    std::optional<RowPace> pace_;
+    std::optional<gl::WorkPace> pace_;
     std::vector<gl::Buffer> levels_;  // by level: the children of one node, nearest first
     std::optional<gl::Buffer> kept_;  // what rays have passed between two dispatches of a leaf
     // The following belong to the frame.
