@@ -75,8 +75,8 @@ class Texture {
     AllocatedBytes bytes_;
 };
 
-// A buffer that shaders read as texels of one or four 32-bit integers (usamplerBuffer), for tables
-// that are too long for other textures. Undefined until written.
+// A buffer that shaders read as texels of one or four 32-bit integers (usamplerBuffer) or as a
+// storage block, for tables that are too long for other textures. Undefined until written.
 class TexelBuffer {
   public:
     TexelBuffer() = default;
@@ -91,6 +91,7 @@ class TexelBuffer {
         buffer_.write(elements);
     }
     void bind(unsigned unit) const;
+    void bind_storage(unsigned binding) const { buffer_.bind_storage(binding); }
     std::size_t byte_count() const { return buffer_.byte_count(); }
 
   private:

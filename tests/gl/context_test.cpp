@@ -57,9 +57,9 @@ class RaysVariable {
 };
 
 TEST(ContextRays, AreMarchedAsTheVariableSays) {
-    const RaysVariable set("texels,128");
+    const RaysVariable set("texels,128,blocks");
     const auto context = Context::create(ContextKind::osmesa);
-    EXPECT_EQ(context->capabilities().rays, (RayDispatch{128, false}));
+    EXPECT_EQ(context->capabilities().rays, (RayDispatch{128, false, true}));
     EXPECT_EQ(context->capabilities().sample_words, false);
 }
 
@@ -67,7 +67,7 @@ TEST(ContextRays, RefuseOtherWords) {
     const auto make = [] { Context::create(ContextKind::osmesa); };
     const RaysVariable unknown("texels,96");
     EXPECT_EQ(error_of(make),
-              "LAMINA_RAYS: found 96, expected words, texels, 32, 64, 128 or queue");
+              "LAMINA_RAYS: found 96, expected words, texels, 32, 64, 128, queue or blocks");
     const RaysVariable queue("queue");
     expect_error(make, {"LAMINA_RAYS: queue is for GPUs"});
 }

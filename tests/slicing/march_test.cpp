@@ -101,8 +101,8 @@ TEST_P(MarchTest, EveryDispatchOfRaysDrawsTheSame) {
             scene.target = target;
             scene.slice.classification = each;
             const Image expected = render(volume_, scene, capabilities());
-            for (const RayDispatch& rays :
-                 {RayDispatch{32, false}, RayDispatch{64, true}, RayDispatch{128, true}}) {
+            for (const RayDispatch& rays : {RayDispatch{32, false, true}, RayDispatch{64, true},
+                                            RayDispatch{128, true, true}}) {
                 Capabilities other = capabilities();
                 other.rays = rays;
                 other.sample_words = !plan_of(scene, capabilities()).words;
