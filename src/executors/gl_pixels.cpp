@@ -63,12 +63,16 @@ void set_packing(gl::Defines& defines, const CompositingPlan& plan) {
     defines.set("PACKING", static_cast<int>(packing_of(plan)));
 }
 
+glm::ivec2 tile_size(int group) {
+    return {group > 64 ? 16 : 8, group < 64 ? 4 : 8};
+}
+
 glm::ivec2 set_pixels(gl::Program& program, const DrawnPixels& pixels, int group) {
     const glm::ivec2 begin(pixels.first_column, pixels.first_row);
     const glm::ivec2 end(pixels.end_column, pixels.end_row);
     program.set("drawn_begin", begin);
     program.set("drawn_end", end);
-    const glm::ivec2 tile(group > 64 ? 16 : 8, group < 64 ? 4 : 8);  // of shaders/gl/tile.glsl
+    const glm::ivec2 tile = tile_size(group);
     return (end - begin + tile - 1) / tile;
 }
 

@@ -25,7 +25,10 @@ struct DrawnPixels {
     int first_column = 0, first_row = 0, end_column = 0, end_row = 0;
 
     bool empty() const { return first_column >= end_column || first_row >= end_row; }
+    friend bool operator==(const DrawnPixels&, const DrawnPixels&) = default;
 };
+// Returns the columns and rows of a tile of shaders/gl/tile.glsl, for workgroups of so many.
+glm::ivec2 tile_size(int group);
 // Tells a compute shader that includes gl/pixels.glsl which pixels it draws, and returns the
 // columns and rows of their tiles. `group`: invocations of a workgroup.
 glm::ivec2 set_pixels(gl::Program& program, const DrawnPixels& pixels, int group);

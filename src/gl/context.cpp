@@ -87,9 +87,15 @@ void set_rays(Capabilities& capabilities) {
                 fail("LAMINA_RAYS: blocks needs {} storage blocks in a shader, found {}: {}",
                      needed, most, capabilities.renderer);
             capabilities.rays.blocks = true;
+        } else if (word == "sorted") {
+            if (!has_extension("GL_ARB_shader_clock"))
+                fail("LAMINA_RAYS: sorted needs GL_ARB_shader_clock: {}", capabilities.renderer);
+            capabilities.rays.sorted = true;
         } else {
-            fail("LAMINA_RAYS: found {}, expected words, texels, 32, 64, 128, queue or blocks",
-                 word);
+            fail(
+                "LAMINA_RAYS: found {}, expected words, texels, 32, 64, 128, queue, blocks or "
+                "sorted",
+                word);
         }
     }
 }

@@ -17,6 +17,9 @@ struct RayDispatch {
     // True: tables of transfer functions and meshes are storage blocks, not textures. Nobody has
     // measured on a GPU yet which is faster.
     bool blocks = false;
+    // True: tiles of volumes are drawn in the order of what they took in the last frame, the
+    // longest first (slicing/gl_march.h). Whether that gains more than it takes is a guess, too.
+    bool sorted = false;
 
     friend bool operator==(const RayDispatch&, const RayDispatch&) = default;
 };

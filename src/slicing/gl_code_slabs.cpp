@@ -72,6 +72,7 @@ void GlCodeSlabs::draw(Progress* progress) {
     } else {
         draw_slabs({0, plan_.slabs}, picture_, progress);
     }
+    march_.end_frame();
     pace_.end_frame();
 }
 

@@ -172,6 +172,7 @@ void GlShaderTree::draw(Progress* progress) {
         band_ = band;
         evaluate(0, shape_.root(), 0);
     });
+    march_.end_frame();
     pace_->end_frame();
 }
 

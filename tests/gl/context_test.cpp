@@ -57,17 +57,18 @@ class RaysVariable {
 };
 
 TEST(ContextRays, AreMarchedAsTheVariableSays) {
-    const RaysVariable set("texels,128,blocks");
+    const RaysVariable set("texels,128,blocks,sorted");
     const auto context = Context::create(ContextKind::osmesa);
-    EXPECT_EQ(context->capabilities().rays, (RayDispatch{128, false, true}));
+    EXPECT_EQ(context->capabilities().rays, (RayDispatch{128, false, true, true}));
     EXPECT_EQ(context->capabilities().sample_words, false);
 }
 
 TEST(ContextRays, RefuseOtherWords) {
     const auto make = [] { Context::create(ContextKind::osmesa); };
     const RaysVariable unknown("texels,96");
-    EXPECT_EQ(error_of(make),
-              "LAMINA_RAYS: found 96, expected words, texels, 32, 64, 128, queue or blocks");
+    EXPECT_EQ(
+        error_of(make),
+        "LAMINA_RAYS: found 96, expected words, texels, 32, 64, 128, queue, blocks or sorted");
     const RaysVariable queue("queue");
     expect_error(make, {"LAMINA_RAYS: queue is for GPUs"});
 }

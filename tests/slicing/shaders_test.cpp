@@ -214,7 +214,7 @@ SlicePlan exact_nodes(bool lit) {
     SlicePlan plan;
     plan.classification = Classification::exact;
     if (lit) plan.lighting.emplace();
-    plan.rays = lit ? RayDispatch{128, true, true} : RayDispatch{32, false};
+    plan.rays = lit ? RayDispatch{128, true, true, true} : RayDispatch{32, false, false, true};
     plan.tree = TreePlan{.factors = {4}};
     plan.occupied_only = true;
     plan.opaque_depth = 9;
