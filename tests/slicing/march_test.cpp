@@ -120,6 +120,34 @@ TEST_P(MarchTest, EveryDispatchOfRaysDrawsTheSame) {
     }
 }
 
+// A GPU's dispatches are chosen by their times, and leaves of trees are not waited for one by one.
+TEST_P(MarchTest, DispatchesThatAreTimedDrawTheSame) {
+    Capabilities timed = capabilities();
+    timed.software = false;
+    const TransferFunction white =
+        TransferFunction::linear({knot(0, {1, 1, 1}, .9), knot(255, {1, 1, 1}, 1)});
+    for (const Target target : {Target::float32, Target::emulated}) {
+        for (const bool tree : {false, true}) {
+            Scene scene = scene_of(64, tree ? white : many_points());
+            scene.height = 170;
+            scene.target = target;
+            if (tree) {
+                scene.slice.tree = TreeSettings{.factors = {8, 8}};
+                if (target == Target::emulated) (*scene.slice.tree)->nodes = NodeArithmetic::fixed;
+            }
+            const Facts facts = measure(scene, volume_, measure_bricks(volume_));
+            const SlicePlan plan = plan_of(scene, capabilities());
+            const Image expected = render(volume_, scene, capabilities());
+            GlSliceRenderer renderer(volume_, *scene.transfer_function, facts, plan, timed,
+                                     scene.width, scene.height);
+            for (int frame = 0; frame < 3; ++frame) {
+                renderer.draw(View(*scene.camera, scene.width, scene.height));
+                EXPECT_EQ(renderer.read().rgba, expected.rgba) << name_of(target) << " " << tree;
+            }
+        }
+    }
+}
+
 // What tiles take is known from the second frame on.
 TEST_P(MarchTest, TilesSortedByCostDrawTheSame) {
     Capabilities sorted = capabilities();
