@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gives each invocation of a compute shader a pixel of a rectangle.
+#ifdef SORTED
+#extension GL_ARB_shader_clock : require  // of gl/march.glsl; extensions stand in front of all else
+#endif
 #include "gl/tile.glsl"
 
 uniform ivec2 drawn_begin;  // column and row of the first pixel that is drawn; row 0 is at the top

@@ -109,8 +109,8 @@ void walk(inout uint tet, inout Front front, inout int left, inout vec4 color) {
         if (through) {
             tet = passage.behind;
             if (tet == no_tet || left <= 0) return;
-            uint combined = texelFetch(tets, int(tet)).x;
-            uvec4 behind = texelFetch(neighbors, int(tet));
+            uint combined = WORD_OF(tets, tet);
+            uvec4 behind = WORDS_OF(neighbors, tet);
             shown = (combined & hidden_tet) == 0u;
             passage = pass_through(tet, combined & ~hidden_tet, behind, passage.from, front);
 #if SOURCE == SOURCE_PARTS && defined(COPIES)

@@ -4,14 +4,38 @@
 // Both tets of a face take the sign of each of its edges from the same numbers, so that no ray leaks between tets, and
 // each enters the tet behind a face where it left the one before. GlMeshWalk (projection/gl_mesh_walk.h) describes the
 // buffers.
-uniform usamplerBuffer tets;       // the corners' numbers, combined by ^, and hidden_tet
-uniform usamplerBuffer neighbors;  // tets behind the faces opposite to the corners, by ascending number of these
-uniform usamplerBuffer points;     // place in steps of `place_steps`, scalar
+//
+//   tets       the corners' numbers, combined by ^, and hidden_tet
+//   neighbors  tets behind the faces opposite to the corners, by ascending number of these
+//   points     place in steps of `place_steps`, scalar
+//   corners    if COPIES is defined: a tet's corners with values of its own, in the same order
+//   gradients  if LIT is defined: of points
+//
+// They are texels or, with TABLE_BLOCKS, storage blocks.
+#ifdef TABLE_BLOCKS
+layout(std430, binding = 5) readonly buffer Tets { uint tets[]; };
+layout(std430, binding = 6) readonly buffer Neighbors { uvec4 neighbors[]; };
+layout(std430, binding = 7) readonly buffer Points { uvec4 points[]; };
 #ifdef COPIES
-uniform usamplerBuffer corners;  // a tet's corners with values of its own, in the same order
+layout(std430, binding = 8) readonly buffer Corners { uvec4 corners[]; };
 #endif
 #ifdef LIT
-uniform usamplerBuffer gradients;  // of points
+layout(std430, binding = 9) readonly buffer Gradients { uvec4 gradients[]; };
+#endif
+#define WORD_OF(table, place) table[place]
+#define WORDS_OF(table, place) table[place]
+#else
+uniform usamplerBuffer tets;
+uniform usamplerBuffer neighbors;
+uniform usamplerBuffer points;
+#ifdef COPIES
+uniform usamplerBuffer corners;
+#endif
+#ifdef LIT
+uniform usamplerBuffer gradients;
+#endif
+#define WORD_OF(table, place) texelFetch(table, int(place)).x
+#define WORDS_OF(table, place) texelFetch(table, int(place))
 #endif
 uniform usamplerBuffer open_faces;
 
@@ -74,11 +98,11 @@ struct Corner {
 };
 
 #ifdef LIT
-vec3 gradient_at(uint point) { return uintBitsToFloat(texelFetch(gradients, int(point)).xyz); }
+vec3 gradient_at(uint point) { return uintBitsToFloat(WORDS_OF(gradients, point).xyz); }
 #endif
 
 Corner see(uint point) {
-    uvec4 words = texelFetch(points, int(point));
+    uvec4 words = WORDS_OF(points, point);
     dvec3 p = dvec3(ivec3(words.xyz));
     precise double x = p.x * across_x.x + p.y * across_x.y + p.z * across_x.z - ray_place.x;
     precise double y = p.x * across_y.x + p.y * across_y.y + p.z * across_y.z - ray_place.y;
@@ -168,7 +192,7 @@ uint entry_of(uint point, uvec4 corners, uvec4 list) {
 #ifdef COPIES
 void take_values(inout Corner corner, uvec4 corners_of_tet, uvec4 own) {
     uint point = entry_of(corner.point, corners_of_tet, own);
-    corner.scalar = uintBitsToFloat(texelFetch(points, int(point)).w);
+    corner.scalar = uintBitsToFloat(WORDS_OF(points, point).w);
 #ifdef LIT
     corner.gradient = gradient_at(point);
 #endif
@@ -204,7 +228,7 @@ Passage pass_through(uint tet, uint combined, uvec4 behind, Crossing entered, in
     Corner top = see(combined ^ front.a.point ^ front.b.point ^ front.c.point);
     uvec4 corners_of_tet = uvec4(front.a.point, front.b.point, front.c.point, top.point);
 #ifdef COPIES
-    uvec4 own = texelFetch(corners, int(tet));
+    uvec4 own = WORDS_OF(corners, tet);
     take_values(front.a, corners_of_tet, own);
     take_values(front.b, corners_of_tet, own);
     take_values(front.c, corners_of_tet, own);

@@ -10,7 +10,7 @@
 #include "gl/api.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
-#include "gl/timeline.h"
+#include "gl/sync.h"
 #include "lamina/image.h"
 #include "plan/compositing_plan.h"
 

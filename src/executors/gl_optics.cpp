@@ -19,6 +19,7 @@ enum TextureUnit {
     knot_table_unit,
     front_parts_unit = GlTransferTables::lit_unit
 };
+constexpr unsigned block_binding = 4;
 static_assert(knot_table_unit < GlTransferTables::first_free_unit);
 
 // Uploads a table. Texels of a coloured table are emission and mean extinction, and each length is
@@ -69,6 +70,20 @@ gl::Texture upload_front_parts(const KnotTable& table) {
     return texture;
 }
 
+// Returns the storage block of shaders/optics/intervals.glsl.
+gl::Buffer make_block(const ShaderIntervals& intervals) {
+    std::vector<float> block(intervals.starts.begin(), intervals.starts.end());
+    block.reserve(block.size() + intervals.texels.size());
+    for (int interval = 0; interval < intervals.count; ++interval) {
+        for (int row = 0; row < ShaderIntervals::rows; ++row) {
+            const auto texel = static_cast<std::size_t>(row * intervals.count + interval);
+            const auto from = std::span(intervals.texels).subspan(4 * texel, 4);
+            block.insert(block.end(), from.begin(), from.end());
+        }
+    }
+    return gl::Buffer(std::span(block));
+}
+
 bool is_gray(const Light& light) {
     return light.color.x == light.color.y && light.color.x == light.color.z;
 }
@@ -88,7 +103,7 @@ glm::vec4 shader_direction(const Light& light, const std::array<glm::dvec3, 3>& 
 
 GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
                                    const ValueRange& range, const KnotTable* table, bool filtered,
-                                   double step_advance) {
+                                   double step_advance, bool block) {
     std::vector<KnotTable::Anchor> anchors;
     if (table != nullptr) {
         anchors = table->anchors;
@@ -107,6 +122,10 @@ GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
         pieces_between(transfer_function, range.lo, range.hi, false), range, anchors, step_advance);
     interval_count_ = intervals.count;
     steps_ = intervals.steps;
+    if (block) {
+        block_ = make_block(intervals);
+        return;
+    }
     intervals_ = upload_intervals(intervals);
     interval_starts_ =
         gl::Texture::make_2d(gl::TextureFormat::r32f, ShaderIntervals::start_count, 1);
@@ -115,10 +134,14 @@ GlTransferTables::GlTransferTables(const TransferFunction& transfer_function,
 }
 
 void GlTransferTables::bind(gl::Program& program) const {
-    intervals_.bind(intervals_unit);
-    interval_starts_.bind(interval_starts_unit);
-    program.set("intervals", intervals_unit);
-    program.set("interval_starts", interval_starts_unit);
+    if (block_.byte_count() > 0) {
+        block_.bind_storage(block_binding);
+    } else {
+        intervals_.bind(intervals_unit);
+        interval_starts_.bind(interval_starts_unit);
+        program.set("intervals", intervals_unit);
+        program.set("interval_starts", interval_starts_unit);
+    }
     if (node_count_ == 0) return;
     knot_table_.bind(knot_table_unit);
     program.set("knot_table", knot_table_unit);

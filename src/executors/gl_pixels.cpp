@@ -63,12 +63,16 @@ void set_packing(gl::Defines& defines, const CompositingPlan& plan) {
     defines.set("PACKING", static_cast<int>(packing_of(plan)));
 }
 
+glm::ivec2 tile_size(int group) {
+    return {group > 64 ? 16 : 8, group < 64 ? 4 : 8};
+}
+
 glm::ivec2 set_pixels(gl::Program& program, const DrawnPixels& pixels, int group) {
     const glm::ivec2 begin(pixels.first_column, pixels.first_row);
     const glm::ivec2 end(pixels.end_column, pixels.end_row);
     program.set("drawn_begin", begin);
     program.set("drawn_end", end);
-    const glm::ivec2 tile(group > 64 ? 16 : 8, group < 64 ? 4 : 8);  // of shaders/gl/tile.glsl
+    const glm::ivec2 tile = tile_size(group);
     return (end - begin + tile - 1) / tile;
 }
 
@@ -83,8 +87,9 @@ GlPixels::GlPixels(PixelPacking packing, int width, int height)
       width_(width),
       height_(height),
       row_words_(static_cast<int>(ceil_to(std::int64_t{words_of(packing)} * width, row_alignment))),
-      words_(sizeof(std::uint32_t) * static_cast<std::size_t>(row_words_) *
-             static_cast<std::size_t>(height)) {}
+      words_(
+          gl::Buffer::make_readable(sizeof(std::uint32_t) * static_cast<std::size_t>(row_words_) *
+                                    static_cast<std::size_t>(height))) {}
 
 void GlPixels::bind(unsigned binding, int first_row, int rows) const {
     const std::size_t row_bytes = sizeof(std::uint32_t) * static_cast<std::size_t>(row_words_);
@@ -93,17 +98,12 @@ void GlPixels::bind(unsigned binding, int first_row, int rows) const {
 }
 
 void GlPixels::read(Image& image, double largest) const {
+    reading_.take(words_);
     image.resize(width_, height_);
-    const int words = words_of(packing_);
-    if (packing_ == PixelPacking::floats && row_words_ == words * width_) {
-        words_.read(std::span(image.rgba));
-        return;
-    }
     set_values(largest);
-    read_words_.resize(words_.byte_count() / sizeof(std::uint32_t));
-    words_.read(std::span(read_words_));
+    const std::span<const std::uint32_t> words = reading_.values<std::uint32_t>();
     parallel_for(height_, 16, [&](std::int64_t row) {
-        const std::uint32_t* const from = read_words_.data() + row * row_words_;
+        const std::uint32_t* const from = words.data() + row * row_words_;
         const std::span numbers(image.pixel(0, static_cast<int>(row)),
                                 4 * static_cast<std::size_t>(width_));
         if (packing_ == PixelPacking::floats)

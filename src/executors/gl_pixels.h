@@ -7,6 +7,7 @@
 
 #include "gl/api.h"
 #include "gl/program.h"
+#include "gl/sync.h"
 #include "lamina/image.h"
 #include "plan/compositing_plan.h"
 
@@ -24,7 +25,10 @@ struct DrawnPixels {
     int first_column = 0, first_row = 0, end_column = 0, end_row = 0;
 
     bool empty() const { return first_column >= end_column || first_row >= end_row; }
+    friend bool operator==(const DrawnPixels&, const DrawnPixels&) = default;
 };
+// Returns the columns and rows of a tile of shaders/gl/tile.glsl, for workgroups of so many.
+glm::ivec2 tile_size(int group);
 // Tells a compute shader that includes gl/pixels.glsl which pixels it draws, and returns the
 // columns and rows of their tiles. `group`: invocations of a workgroup.
 glm::ivec2 set_pixels(gl::Program& program, const DrawnPixels& pixels, int group);
@@ -50,7 +54,7 @@ class GlPixels {
     int width_, height_, row_words_;
     gl::Buffer words_;
     // read() keeps the following, so that no frame allocates.
-    mutable std::vector<std::uint32_t> read_words_;
+    mutable gl::ReadBack reading_;
     mutable std::vector<float> values_;  // the values of all numbers of 8 or 16 bits
     mutable double largest_ = 0;         // the largest code, for which these are
 };

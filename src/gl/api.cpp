@@ -146,7 +146,20 @@ Buffer::Buffer(std::size_t byte_count, unsigned storage_flags)
 
 Buffer Buffer::make_mapped(std::size_t byte_count) {
     constexpr GLbitfield access = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-    Buffer buffer(byte_count, access);
+    return make_mapped(byte_count, access, 0);
+}
+
+Buffer Buffer::make_host(std::size_t byte_count) {
+    return make_mapped(byte_count, GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT, GL_CLIENT_STORAGE_BIT);
+}
+
+Buffer Buffer::make_readable(std::size_t byte_count) {
+    if (!current_context()->capabilities().software) return Buffer(byte_count);
+    return make_mapped(byte_count, GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT, 0);
+}
+
+Buffer Buffer::make_mapped(std::size_t byte_count, unsigned access, unsigned storage_flags) {
+    Buffer buffer(byte_count, access | storage_flags);
     buffer.mapped_ = static_cast<std::byte*>(
         api().MapNamedBufferRange(buffer.id(), 0, static_cast<GLsizeiptr>(byte_count), access));
     check("mapping a buffer");

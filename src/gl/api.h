@@ -116,6 +116,11 @@ class Buffer {
     // Makes a buffer that stays mapped: a draw sees what was written through mapped() before it.
     // The writer must not change data that a draw still reads (see Fence).
     static Buffer make_mapped(std::size_t byte_count);
+    // Makes a buffer in the host's memory that stays mapped for reading (see ReadBack).
+    static Buffer make_host(std::size_t byte_count);
+    // Makes a buffer that shaders write and the host reads: in software one that stays mapped, as
+    // OpenGL's memory is the host's there.
+    static Buffer make_readable(std::size_t byte_count);
 
     template <typename T, std::size_t extent>
     explicit Buffer(std::span<T, extent> elements) : Buffer(elements.size_bytes()) {
@@ -130,7 +135,7 @@ class Buffer {
     }
 
     // Waits for the GPU and fills `elements` with the bytes from `byte_offset` on, which must
-    // exist.
+    // exist. ReadBack is quicker for what each frame reads.
     template <typename T, std::size_t extent>
     void read(std::span<T, extent> elements, std::size_t byte_offset = 0) const {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -143,7 +148,8 @@ class Buffer {
     // Binds a part alone, which must begin at a multiple of 256 bytes.
     void bind_storage(unsigned binding, std::size_t byte_offset, std::size_t byte_count) const;
 
-    // Returns the mapped memory, which is slow to read; null if the buffer is not mapped.
+    // Returns the mapped memory, which is slow to read if it is mapped for writing; null if the
+    // buffer is not mapped.
     std::byte* mapped() const { return mapped_; }
 
     unsigned id() const { return handle_.id(); }
@@ -151,6 +157,7 @@ class Buffer {
 
   private:
     Buffer(std::size_t byte_count, unsigned storage_flags);
+    static Buffer make_mapped(std::size_t byte_count, unsigned access, unsigned storage_flags);
     void write_bytes(std::span<const std::byte> bytes, std::size_t byte_offset);
     void read_bytes(std::span<std::byte> bytes, std::size_t byte_offset) const;
 

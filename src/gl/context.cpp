@@ -80,8 +80,22 @@ void set_rays(Capabilities& capabilities) {
                 fail("LAMINA_RAYS: queue is for GPUs, because software ends long loops: {}",
                      capabilities.renderer);
             capabilities.rays.queue = true;
+        } else if (word == "blocks") {
+            constexpr int needed = 9;  // of shaders/projection/walk.comp, which has the most
+            const int most = integer(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS);
+            if (most < needed)
+                fail("LAMINA_RAYS: blocks needs {} storage blocks in a shader, found {}: {}",
+                     needed, most, capabilities.renderer);
+            capabilities.rays.blocks = true;
+        } else if (word == "sorted") {
+            if (!has_extension("GL_ARB_shader_clock"))
+                fail("LAMINA_RAYS: sorted needs GL_ARB_shader_clock: {}", capabilities.renderer);
+            capabilities.rays.sorted = true;
         } else {
-            fail("LAMINA_RAYS: found {}, expected words, texels, 32, 64, 128 or queue", word);
+            fail(
+                "LAMINA_RAYS: found {}, expected words, texels, 32, 64, 128, queue, blocks or "
+                "sorted",
+                word);
         }
     }
 }
@@ -113,6 +127,7 @@ std::unique_ptr<Context> Context::create(ContextKind kind) {
                 reasons.push_back(reason);
             continue;
         }
+        const CurrentContext current(*made);
         set_rays(made->capabilities_);
         return made;
     }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/parallel.h"
 
 namespace lamina::gl {
 
@@ -143,13 +144,15 @@ Image Framebuffer::read_back(std::size_t target) const {
 }
 
 void Framebuffer::read_back(Image& image, std::size_t target) const {
+    reading_.take(color(target));
     image.resize(width(), height());
-    color(target).read_rgba(image.rgba);
+    const std::span<const float> rgba = reading_.values<float>();
     const std::size_t row = 4 * static_cast<std::size_t>(width());
-    for (int top = 0; top < height() / 2; ++top) {
-        float* const upper = image.pixel(0, top);
-        std::swap_ranges(upper, upper + row, image.pixel(0, height() - 1 - top));
-    }
+    parallel_for(height(), 16, [&](std::int64_t y) {
+        const auto from_bottom = static_cast<std::size_t>(height() - 1 - y);
+        std::ranges::copy(rgba.subspan(from_bottom * row, row),
+                          image.pixel(0, static_cast<int>(y)));
+    });
 }
 
 void draw_full_screen(const Program& program) {

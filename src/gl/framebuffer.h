@@ -7,6 +7,7 @@
 
 #include "gl/api.h"
 #include "gl/program.h"
+#include "gl/sync.h"
 #include "gl/texture.h"
 #include "lamina/image.h"
 
@@ -35,6 +36,7 @@ class Framebuffer {
   private:
     std::vector<Texture> colors_;
     Handle<ObjectKind::framebuffer> handle_;
+    mutable ReadBack reading_;
 };
 
 // Runs the program (vertex shader "gl/full_screen.vert") for all pixels of the bound target.

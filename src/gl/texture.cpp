@@ -9,6 +9,7 @@
 #include <glad/gl.h>
 #include "base/error.h"
 #include "gl/context.h"
+#include "gl/sync.h"
 #include "plan/capabilities.h"
 
 namespace lamina::gl {
@@ -154,29 +155,10 @@ void Texture::upload_components(const TexelBox& box, unsigned type, const void* 
 }
 
 std::vector<float> Texture::read_rgba() const {
-    std::vector<float> rgba(4 * static_cast<std::size_t>(texel_count(whole_)));
-    read_rgba(rgba);
-    return rgba;
-}
-
-void Texture::read_rgba(std::span<float> rgba) const {
-    assert(rgba.size() == 4 * static_cast<std::size_t>(texel_count(whole_)));
-    assert(format_ != TextureFormat::rgba16i);
-    // The transfer goes in bands of rows, because OpenGL counts its bytes in an int.
-    const std::size_t row_floats = 4 * static_cast<std::size_t>(width());
-    const std::size_t band_floats = std::size_t{1} << 24;
-    const int band_rows = static_cast<int>(std::max(band_floats / row_floats, std::size_t{1}));
-    float* destination = rgba.data();
-    for (int z = 0; z < depth(); ++z) {
-        for (int y = 0; y < height(); y += band_rows) {
-            const int rows = std::min(band_rows, height() - y);
-            const std::size_t floats = row_floats * static_cast<std::size_t>(rows);
-            api().GetTextureSubImage(id(), 0, 0, y, z, width(), rows, 1, GL_RGBA, GL_FLOAT,
-                                     static_cast<GLsizei>(floats * sizeof(float)), destination);
-            destination += floats;
-        }
-    }
-    check("reading a texture back");
+    ReadBack reading;
+    reading.take(*this);
+    const std::span<const float> rgba = reading.values<float>();
+    return {rgba.begin(), rgba.end()};
 }
 
 TexelBuffer::TexelBuffer(int components, std::size_t texels)

@@ -53,10 +53,7 @@ class Texture {
     void set_filter(TextureFilter filter);
     void bind(unsigned unit) const;
 
-    // Reads all texels as RGBA floats, x fastest, then y, then z; row 0 is the bottom one, as in
-    // OpenGL. The format must not be rgba16i. Absent channels read as 0, absent alpha as 1.
-    std::vector<float> read_rgba() const;
-    void read_rgba(std::span<float> rgba) const;  // `rgba` has exactly 4 floats for each texel
+    std::vector<float> read_rgba() const;  // waits for ReadBack::take()
 
     unsigned id() const { return handle_.id(); }
     TextureFormat format() const { return format_; }
@@ -78,8 +75,8 @@ class Texture {
     AllocatedBytes bytes_;
 };
 
-// A buffer that shaders read as texels of one or four 32-bit integers (usamplerBuffer), for tables
-// that are too long for other textures. Undefined until written.
+// A buffer that shaders read as texels of one or four 32-bit integers (usamplerBuffer) or as a
+// storage block, for tables that are too long for other textures. Undefined until written.
 class TexelBuffer {
   public:
     TexelBuffer() = default;
@@ -94,6 +91,7 @@ class TexelBuffer {
         buffer_.write(elements);
     }
     void bind(unsigned unit) const;
+    void bind_storage(unsigned binding) const { buffer_.bind_storage(binding); }
     std::size_t byte_count() const { return buffer_.byte_count(); }
 
   private:

@@ -9,25 +9,6 @@
 
 namespace lamina::gl {
 
-// A point in the stream of OpenGL commands that the program can wait for.
-class Fence {
-  public:
-    Fence() = default;
-    ~Fence();
-    Fence(const Fence&) = delete;
-    Fence& operator=(const Fence&) = delete;
-
-    void set();  // places the fence at the current point
-    // Waits until all commands before the fence are complete; returns at once if it was not set.
-    void wait();
-    // Ends a step of a frame: waits for the fence, which ended the step before, and places it here.
-    // So OpenGL has one step to work on while the next one is prepared, and at most two to end.
-    void end_step();
-
-  private:
-    void* sync_ = nullptr;
-};
-
 // Counts the samples that pass in draws between begin() and end(), or records the time at which all
 // commands before stamp() are done. Intervals from begin() to end() must not overlap.
 class Query {

@@ -8,12 +8,18 @@
 
 namespace lamina {
 
-// How compute shaders march the rays of volumes. Pictures do not depend on it.
+// How compute shaders draw rays. Pictures do not depend on it.
 struct RayDispatch {
     int group = 64;  // rays of a workgroup: 32, 64 or 128 (shaders/gl/tile.glsl)
     // True: workgroups take tiles from a queue (shaders/gl/march.glsl). For GPUs, because software
     // ends all loops of an invocation together, however many tiles it draws.
     bool queue = false;
+    // True: tables of transfer functions and meshes are storage blocks, not textures. Nobody has
+    // measured on a GPU yet which is faster.
+    bool blocks = false;
+    // True: tiles of volumes are drawn in the order of what they took in the last frame, the
+    // longest first (slicing/gl_march.h). Whether that gains more than it takes is a guess, too.
+    bool sorted = false;
 
     friend bool operator==(const RayDispatch&, const RayDispatch&) = default;
 };

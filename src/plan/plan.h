@@ -117,6 +117,7 @@ struct ProjectedPicture : CompositingPlan, LightPlan {
     bool nothing_visible = false;   // no tet is drawn
     bool table_filtered = false;    // tables are read through the texture unit's linear filter
     bool walk = false;              // rays walk from tet to tet (projection/gl_mesh_walk.h)
+    bool blocks = false;            // tables are storage blocks, not textures
     double near_depth = 0;          // eye-space depth of the near plane, in the plan's units
     ValueRange range;               // scalars that are normalised to [0, 1]; lo < hi
     // True: `range` is the window, the scalars between which something visible changes. A mesh may

@@ -173,6 +173,7 @@ struct ProjectPlanner {
             choose_walk(), "blending",
             "float32: each ray walks from tet to tet and composites in registers; tets are neither "
             "sorted nor drawn");
+        plan.blocks = choose_blocks();
         plan.error = picture_error();
         Plan made;
         made.method = Method::project;
@@ -344,6 +345,13 @@ struct ProjectPlanner {
                (facts.orthographic || facts.box_in_front) &&
                (!capabilities.software || scene.transfer_function->knots().size() <= most_points) &&
                !has_narrow_pieces(*scene.transfer_function, drawn);
+    }
+
+    // Tells whether tables are storage blocks: if that is asked for and the largest of a walk fits,
+    // which has 16 bytes for each tet or point.
+    bool choose_blocks() const {
+        return capabilities.rays.blocks && (!plan.walk || 16 * std::max(facts.tets, facts.points) <=
+                                                              capabilities.max_storage_bytes);
     }
 
     // Returns the error, or none for pictures that are wrong on purpose; for triangles, whose

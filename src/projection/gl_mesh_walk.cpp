@@ -59,7 +59,8 @@ std::size_t most_tiles_of(const Capabilities& capabilities) {
     return std::min<std::size_t>(capabilities.software ? 16384 : 65535, fitting);
 }
 
-constexpr unsigned mesh_unit = 4;  // and those after it; behind those of GlProjectTables
+constexpr unsigned mesh_unit = 4;     // and those after it; behind those of GlProjectTables
+constexpr unsigned mesh_binding = 5;  // and those after it, in blocks (walk_mesh.glsl)
 
 using Texel = std::array<std::uint32_t, 4>;
 
@@ -159,7 +160,7 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
       pace_(rounds_of(plan_, tables_.intervals())) {
     const std::size_t tiles = EntryTiles::count(width) * EntryTiles::count(height);
     rays_ = gl::Buffer(std::min(most_tiles_, tiles) * bytes_of_tile);
-    unfinished_ = gl::Buffer(sizeof(std::uint32_t));
+    unfinished_ = gl::Buffer::make_readable(sizeof(std::uint32_t));
     const Stage uploading("upload mesh");
     upload_tets();
     upload_points();
@@ -286,20 +287,26 @@ void GlMeshWalk::set_view(const View& view) {
     program_.set("near_depth", plan_.near_depth - center.z);
     program_.set("place_steps", place_steps_ * plan_.unit);
     if (plan_.lighting) set_lit_view(*plan_.lighting, gradients_, plan_.most_bend, program_);
-    unsigned unit = mesh_unit;
-    for (const auto& [name, buffer] :
-         std::initializer_list<std::pair<const char*, gl::TexelBuffer*>>{
-             {"tets", &tets_},
-             {"neighbors", &neighbors_},
-             {"corners", &corners_},
-             {"points", &points_},
-             {"gradients", &gradient_texels_},
-             {"open_faces", &open_faces_},
-             {"tiles", &tiles_},
-             {"listed_faces", &listed_faces_}}) {
-        buffer->bind(unit);
-        program_.set(name, static_cast<int>(unit++));
-    }
+    using Tables = std::initializer_list<std::pair<const char*, const gl::TexelBuffer*>>;
+    unsigned unit = mesh_unit, binding = mesh_binding;
+    const auto bind = [&](const Tables& tables, bool blocks) {
+        for (const auto& [name, table] : tables) {
+            if (blocks) {
+                table->bind_storage(binding++);
+                continue;
+            }
+            table->bind(unit);
+            program_.set(name, static_cast<int>(unit++));
+        }
+    };
+    bind({{"tets", &tets_},
+          {"neighbors", &neighbors_},
+          {"points", &points_},
+          {"corners", &corners_},
+          {"gradients", &gradient_texels_}},
+         plan_.blocks);
+    bind({{"open_faces", &open_faces_}, {"tiles", &tiles_}, {"listed_faces", &listed_faces_}},
+         false);
     program_.set("picture_row", picture_.row_words() / words_of(PixelPacking::floats));
     picture_.bind(0, 0, height_);
     rays_.bind_storage(1);
@@ -328,7 +335,8 @@ void GlMeshWalk::draw(const View& view, Progress* progress) {
             program_.set("rounds", pace_.rounds());
             unfinished_.clear();
             program_.dispatch(static_cast<int>(count));
-            unfinished_.read(std::span(&unfinished, 1));
+            counting_.take(unfinished_);
+            unfinished = counting_.values<std::uint32_t>().front();
             if (!capabilities.software)
                 pace_.took(watch.milliseconds(), begins == 1 && unfinished > 0);
             check_interrupt();

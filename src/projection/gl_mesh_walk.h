@@ -6,6 +6,7 @@
 #include "executors/gl_pixels.h"
 #include "gl/api.h"
 #include "gl/program.h"
+#include "gl/sync.h"
 #include "gl/texture.h"
 #include "gl/timeline.h"
 #include "mesh/face_tree.h"
@@ -91,6 +92,7 @@ class GlMeshWalk : public ProjectRenderer {
     gl::TexelBuffer tets_, neighbors_, corners_, points_, gradient_texels_, open_faces_;
     gl::TexelBuffer tiles_, listed_faces_;
     gl::Buffer rays_, unfinished_;
+    gl::ReadBack counting_;  // of the unfinished rays
     gl::Timeline timeline_;
     double list_ms_ = 0;
 };

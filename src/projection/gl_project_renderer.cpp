@@ -99,6 +99,7 @@ gl::Defines project_defines(const ProjectPlan& plan, FragmentKind kind) {
     if (!plan.tree.empty()) defines.set("OPACITY_ONLY", 1);
     if (plan.source != SegmentSource::constant) defines.set("SCALARS", 1);
     if (plan.windowed) defines.set("WINDOWED", 1);
+    if (plan.blocks) defines.set("TABLE_BLOCKS", 1);
     if (kind == FragmentKind::careful && plan.source != SegmentSource::parts)
         defines.set("EXACT_SEGMENTS", 1);
     if (plan.orthographic) defines.set("ORTHOGRAPHIC", 1);
@@ -161,7 +162,7 @@ GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, cons
         case SegmentSource::parts:
             // A walk cuts segments to pieces that need no table.
             if (plan.walk) {
-                intervals_.emplace(transfer_function, plan.range, nullptr, false, 0);
+                intervals_.emplace(transfer_function, plan.range, nullptr, false, 0, plan.blocks);
             } else if (!plan.single_color) {
                 constexpr int nodes = FrontWeightTable::nodes;
                 texture_ = gl::Texture::make_2d(gl::TextureFormat::r32f, nodes, nodes);
@@ -171,10 +172,10 @@ GlProjectTables::GlProjectTables(const TransferFunction& transfer_function, cons
             break;
         case SegmentSource::cut_table:
             intervals_.emplace(transfer_function, plan.range, plan.table.knot_table().get(),
-                               plan.table_filtered, 0);
+                               plan.table_filtered, 0, plan.blocks);
             break;
         case SegmentSource::analytic:
-            intervals_.emplace(transfer_function, plan.range, nullptr, false, 0);
+            intervals_.emplace(transfer_function, plan.range, nullptr, false, 0, plan.blocks);
             break;
         case SegmentSource::mean:
         case SegmentSource::vertices:

@@ -32,6 +32,10 @@ constexpr std::size_t words_of_entry = sizeof(CodeEntry) / sizeof(std::uint32_t)
 template <typename Record>
 constexpr std::size_t texels_of = sizeof(Record) / (4 * sizeof(std::uint32_t));
 
+// Entries of each tile's list in the first dispatch of a GPU: a slow one computes in doubles at
+// 100 GFlop/s, and takes 60 ms for so many in each pixel of 800 x 600, of 400 operations.
+constexpr int step_of_list = 32;
+
 constexpr int tiles_of_dispatch = 16384;  // in one dispatch; OpenGL allows 65535
 
 enum StorageBinding : unsigned { picture_binding, tile_binding };
@@ -99,8 +103,8 @@ TilePixelBits pixels_in_tile(const PixelArea& area, const TetOutline& outline, i
 
 // Software rasterisers end all loops of an invocation together after 65535 rounds, also those that
 // integrate a fragment, and draw up to 16 pixels at once, whose rounds add up if they meet other
-// fragments; with one entry, they meet the same. GPUs have no such bound: the numbers of entries
-// and tiles alone bound a dispatch there, and nothing measures its time.
+// fragments; with one entry, they meet the same. GPUs have no such bound: their time decides
+// (WorkPace).
 int most_in_dispatch(const ProjectPlan& plan, int intervals, const Capabilities& capabilities) {
     constexpr std::int64_t most_rounds = 65000, most = most_rounds / 16;
     if (!capabilities.software) return static_cast<int>(most);
@@ -149,7 +153,8 @@ GlTetCodes::GlTetCodes(const SceneMesh& mesh, const TransferFunction& transfer_f
     table_ms_ = tables.end();
     program_.emplace("projection/codes.comp", tet_code_defines(plan_, *tables_));
     const Capabilities& capabilities = gl::current_context()->capabilities();
-    most_of_list_ = most_in_dispatch(plan_, tables_->intervals(), capabilities);
+    pace_.emplace(most_in_dispatch(plan_, tables_->intervals(), capabilities), step_of_list,
+                  !capabilities.software);
     const auto most_texels = static_cast<std::size_t>(capabilities.max_buffer_texels);
     records_.resize(std::min({batch_size, most_texels / texels_of<SilhouetteRecord>,
                               static_cast<std::size_t>(visible_->count())}));
@@ -182,6 +187,7 @@ void GlTetCodes::draw(const View& view, Progress* progress) {
     order_ms_ = ordering.end();
     Stage drawing("draw");
     set_view(view);
+    pace_->begin_frame();
     constexpr double margin = 1e-3;  // pixel, as on the CPU: far beyond rounding
     const TetProjector projector({mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_,
                                   WindowView(seeing_in_units(view, plan_.unit)), plan_.near_depth,
@@ -196,6 +202,7 @@ void GlTetCodes::draw(const View& view, Progress* progress) {
         });
     }
     timeline_.end();
+    pace_->end_frame();
     gl::api().Finish();
     gl::check("drawing tets on codes");
     drawing.count("tets", static_cast<double>(tets_drawn_));
@@ -308,18 +315,22 @@ void GlTetCodes::list(std::size_t first, std::size_t count) {
 }
 
 void GlTetCodes::dispatch() {
-    program_->set("most_of_list", most_of_list_);
     auto left = static_cast<int>(lists_.tiles.size());  // tiles whose lists are not done
-    for (int begin = 0; left > 0; begin += most_of_list_) {
+    const auto length = [&](int tile) {
+        const CodeLists::Tile& list = lists_.tiles[static_cast<std::size_t>(tile)];
+        return static_cast<int>(list.end - list.first);
+    };
+    for (int begin = 0; left > 0;) {
+        const int entries = pace_->next(length(0) - begin);  // of the longest list
+        program_->set("most_of_list", entries);
         program_->set("first_of_list", begin);
         for (int first = 0; first < left; first += tiles_of_dispatch) {
             program_->set("first_tile", first);
             program_->dispatch(std::min(tiles_of_dispatch, left - first));
         }
-        const auto done = [&](const CodeLists::Tile& tile) {
-            return static_cast<int>(tile.end - tile.first) <= begin + most_of_list_;
-        };
-        while (left > 0 && done(lists_.tiles[static_cast<std::size_t>(left) - 1])) --left;
+        pace_->dispatched(entries);
+        begin += entries;
+        while (left > 0 && length(left - 1) <= begin) --left;
     }
 }
 

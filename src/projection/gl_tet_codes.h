@@ -9,7 +9,9 @@
 
 #include "executors/gl_code_tree.h"
 #include "executors/gl_pixels.h"
+#include "gl/pace.h"
 #include "gl/program.h"
+#include "gl/sync.h"
 #include "gl/texture.h"
 #include "gl/timeline.h"
 #include "projection/gl_project_renderer.h"
@@ -81,9 +83,9 @@ class GlTetCodes : public ProjectRenderer {
     std::optional<GlProjectTables> tables_;  // none if nothing is visible
     std::optional<gl::Program> program_;
     GlPixels picture_;
-    std::optional<GlCodeTree> tree_;  // if the plan has one
-    int most_of_list_ = 0;            // entries of a tile's list that a dispatch draws
-    std::size_t most_entries_;        // of all lists
+    std::optional<GlCodeTree> tree_;    // if the plan has one
+    std::optional<gl::WorkPace> pace_;  // of the entries of a tile's list
+    std::size_t most_entries_;          // of all lists
     gl::Timeline timeline_;
     double list_ms_ = 0;
     std::array<gl::Fence, 2> drawn_;  // of the last rounds of lists

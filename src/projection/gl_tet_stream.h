@@ -5,6 +5,7 @@
 
 #include "gl/api.h"
 #include "gl/program.h"
+#include "gl/sync.h"
 #include "gl/timeline.h"
 #include "plan/compositing_plan.h"
 #include "projection/tet_projector.h"

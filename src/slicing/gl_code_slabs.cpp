@@ -41,7 +41,7 @@ GlCodeSlabs::GlCodeSlabs(const GlSlabSource& source, const SlicePlan& plan,
       picture_(packing_of(plan), width, height),
       pace_(rows_of_band(height, plan.batches,
                          capabilities.max_storage_bytes / (4 * std::int64_t{picture_.row_words()})),
-            plan.batches == 1) {
+            RowBand::tile_rows, !capabilities.software) {
     if (plan_.dither) ranks_ = upload_ranks(*plan_.dither);
     if (!plan_.tree) return;
     tree_.emplace(plan_, TreeShape(plan_.tree->factors, plan_.slabs), source_.single_color(), width,
@@ -66,11 +66,14 @@ void GlCodeSlabs::set_view(const View& view, const Slabs& slabs) {
 }
 
 void GlCodeSlabs::draw(Progress* progress) {
+    pace_.begin_frame();
     if (tree_) {
         tree_->draw(*this, picture_, progress);
     } else {
         draw_slabs({0, plan_.slabs}, picture_, progress);
     }
+    march_.end_frame();
+    pace_.end_frame();
 }
 
 void GlCodeSlabs::draw(const SampleSpan& span, const GlPixels& opacity, double depth_scale) {

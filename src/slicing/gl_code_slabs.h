@@ -4,8 +4,8 @@
 #include "base/client.h"
 #include "executors/gl_code_tree.h"
 #include "executors/gl_pixels.h"
+#include "gl/sync.h"
 #include "gl/texture.h"
-#include "gl/timeline.h"
 #include "plan/capabilities.h"
 #include "slicing/gl_march.h"
 
@@ -44,7 +44,7 @@ class GlCodeSlabs : public GlMarchedPicture, private CodeLeaves {
     gl::Texture ranks_;  // of dithering
     GlMarch march_;
     GlPixels picture_;
-    RowPace pace_;
+    gl::WorkPace pace_;               // of rows
     gl::Fence drawn_;                 // behind the last band
     std::optional<GlCodeTree> tree_;  // if the plan has one
 };

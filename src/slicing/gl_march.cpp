@@ -2,11 +2,14 @@
 #include "slicing/gl_march.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
 
 namespace lamina {
 namespace {
 
-constexpr unsigned queue_binding = 3;
+enum StorageBinding : unsigned { queue_binding = 3, order_binding = 5, cost_binding = 6 };
 
 // Workgroups that take tiles from a queue: more than any GPU runs at once, as those that begin late
 // find the queue empty.
@@ -17,6 +20,67 @@ constexpr int most_groups = 4096;
 void set_rays(gl::Defines& defines, const RayDispatch& rays) {
     defines.set("GROUP", rays.group);
     if (rays.queue) defines.set("QUEUE", 1);
+    if (rays.sorted) defines.set("SORTED", 1);
+}
+
+// The upper left pixels of drawn tiles lie in different tiles of the whole picture, even if they
+// are not the upper left ones there.
+TilesByCost::TilesByCost(int width, int height, int group)
+    : tile_(tile_size(group)),
+      count_((glm::ivec2(width, height) + tile_ - 1) / tile_),
+      cost_classes_(static_cast<std::size_t>(count_.x) * static_cast<std::size_t>(count_.y)) {
+    costs_ = gl::Buffer::make_readable(cost_classes_.size() * sizeof(std::uint32_t));
+    order_ = gl::Buffer(cost_classes_.size() * sizeof(std::uint32_t));
+}
+
+void TilesByCost::begin_frame() {
+    listed_pixels_.reset();
+    if (read_) {
+        const auto costs = reading_.values<std::uint32_t>();
+        const std::uint64_t largest = std::max(std::ranges::max(costs), 1u);
+        for (std::size_t tile = 0; tile < costs.size(); ++tile)
+            cost_classes_[tile] =
+                static_cast<std::uint8_t>((largest - costs[tile]) * (classes - 1) / largest);
+    }
+    costs_.clear();
+}
+
+void TilesByCost::end_frame() {
+    reading_.take(costs_);
+    read_ = true;
+}
+
+std::size_t TilesByCost::class_of(const glm::ivec2& pixel) const {
+    const glm::ivec2 place = pixel / tile_;
+    return cost_classes_[static_cast<std::size_t>(place.y) * static_cast<std::size_t>(count_.x) +
+                         static_cast<std::size_t>(place.x)];
+}
+
+void TilesByCost::list(const DrawnPixels& pixels) {
+    const glm::ivec2 begin(pixels.first_column, pixels.first_row);
+    const glm::ivec2 end(pixels.end_column, pixels.end_row);
+    const auto visit = [&](const auto& visit_tile) {
+        glm::ivec2 pixel, tile;
+        for (pixel.y = begin.y, tile.y = 0; pixel.y < end.y; pixel.y += tile_.y, ++tile.y)
+            for (pixel.x = begin.x, tile.x = 0; pixel.x < end.x; pixel.x += tile_.x, ++tile.x)
+                visit_tile(class_of(pixel), tile);
+    };
+    std::array<std::size_t, classes> ends{};  // of each class in the list
+    visit([&](std::size_t which, const glm::ivec2&) { ++ends[which]; });
+    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::size_t{0});
+    listed_.resize(cost_classes_.size());
+    visit([&](std::size_t which, const glm::ivec2& tile) {
+        listed_[ends[which]++] = static_cast<std::uint32_t>(tile.x | tile.y << 16);
+    });
+    order_.write(std::span(listed_).first(ends.back()));
+    listed_pixels_ = pixels;
+}
+
+void TilesByCost::bind(const DrawnPixels& pixels, gl::Program& program) {
+    if (listed_pixels_ != pixels) list(pixels);
+    order_.bind_storage(order_binding);
+    costs_.bind_storage(cost_binding);
+    program.set("cost_columns", count_.x);
 }
 
 GlMarch::GlMarch(const GlSlabSource& source, const SlicePlan& plan) : source_(source), plan_(plan) {
@@ -30,6 +94,8 @@ int dispatches_of(const SlicePlan& plan, int slabs) {
 void GlMarch::set_view(const View& view, const Slabs& slabs, Order order, gl::Program& program) {
     view_ = view;
     slabs_ = slabs;
+    if (plan_.rays.sorted && !by_cost_) by_cost_.emplace(view.width, view.height, plan_.rays.group);
+    if (by_cost_) by_cost_->begin_frame();
     order_ = order;
     bricks_.clear();
     seen_ = {};
@@ -75,15 +141,20 @@ void GlMarch::draw(const Part& part, const RowBand& band, gl::Program& program) 
     const DrawnPixels pixels = drawn_in(band);
     if (pixels.empty()) return;
     const glm::ivec2 tiles = set_pixels(program, pixels, plan_.rays.group);
+    program.set("tile_columns", tiles.x);
+    if (by_cost_) by_cost_->bind(pixels, program);
     if (!plan_.rays.queue) {
         program.dispatch(tiles.x, tiles.y);
         return;
     }
-    program.set("tile_columns", tiles.x);
     program.set("tile_count", tiles.x * tiles.y);
     next_tile_->clear();
     next_tile_->bind_storage(queue_binding);
     program.dispatch(std::min(tiles.x * tiles.y, most_groups));
+}
+
+void GlMarch::end_frame() {
+    if (by_cost_) by_cost_->end_frame();
 }
 
 }  // namespace lamina

@@ -8,6 +8,7 @@
 #include "compositing/tree_shape.h"
 #include "executors/gl_pixels.h"
 #include "gl/program.h"
+#include "gl/sync.h"
 #include "slicing/gl_row_bands.h"
 #include "slicing/gl_slab_source.h"
 #include "slicing/slab_geometry.h"
@@ -16,6 +17,32 @@ namespace lamina {
 
 // Sets the definitions of shaders/gl/march.glsl.
 void set_rays(gl::Defines& defines, const RayDispatch& rays);
+
+// Lists tiles of a picture in the order in which they are drawn: those that took longest in the
+// last frame first, so that none begins late and ends alone.
+class TilesByCost {
+  public:
+    TilesByCost(int width, int height, int group);
+
+    void begin_frame();  // looks at the last frame's costs
+    // Binds the list of these pixels' tiles, and where their costs are noted.
+    void bind(const DrawnPixels& pixels, gl::Program& program);
+    void end_frame();  // begins to read the costs
+
+  private:
+    static constexpr std::size_t classes = 64;  // of costs; tiles of one stay in their order
+
+    std::size_t class_of(const glm::ivec2& pixel) const;
+    void list(const DrawnPixels& pixels);
+
+    glm::ivec2 tile_, count_;  // size and number of tiles of the whole picture
+    gl::Buffer costs_, order_;
+    gl::ReadBack reading_;
+    bool read_ = false;                       // a frame is done
+    std::vector<std::uint8_t> cost_classes_;  // by tile, 0 for the longest
+    std::vector<std::uint32_t> listed_;
+    std::optional<DrawnPixels> listed_pixels_;  // in this frame
+};
 
 // Tells compute shaders that march slabs (leaf.comp, codes.comp) which slabs of which bricks they
 // draw, in which pixels.
@@ -40,6 +67,7 @@ class GlMarch {
     // GlSlabSource::bind() must be set.
     void draw(const Part& part, const RowBand& band, gl::Program& program);
     DrawnPixels drawn_in(const RowBand& band) const;
+    void end_frame();  // must be called behind the frame's last draw
 
   private:
     // A brick, and the range of slabs in which it may show something.
@@ -58,6 +86,7 @@ class GlMarch {
     std::vector<SeenBrick> bricks_;         // in this order
     std::vector<Part> parts_;               // of the last span
     std::optional<gl::Buffer> next_tile_;   // of the queue, if there is one
+    std::optional<TilesByCost> by_cost_;    // if tiles are sorted
 };
 
 // A picture that compute shaders march (GlShaderTree, GlCodeSlabs).

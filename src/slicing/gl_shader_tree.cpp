@@ -135,7 +135,7 @@ void GlShaderTree::choose_bands(const Capabilities& capabilities,
     const std::int64_t fitting = std::min(std::max<std::int64_t>(memory_budget / row_bytes, 1),
                                           capabilities.max_storage_bytes / block_bytes);
     band_rows_ = rows_of_band(height_, (plan_.batches + leaf_count_ - 1) / leaf_count_, fitting);
-    pace_.emplace(band_rows_, plan_.batches == 1);
+    pace_.emplace(band_rows_, RowBand::tile_rows, !capabilities.software);
 }
 
 void GlShaderTree::make_programs() {
@@ -167,10 +167,13 @@ void GlShaderTree::set_view(const View& view, const Slabs& slabs) {
 
 void GlShaderTree::draw(Progress* progress) {
     progress_ = progress;
+    pace_->begin_frame();
     draw_bands(height_, *pace_, [&](const RowBand& band) {
         band_ = band;
         evaluate(0, shape_.root(), 0);
     });
+    march_.end_frame();
+    pace_->end_frame();
 }
 
 void GlShaderTree::read(Image& image) const {

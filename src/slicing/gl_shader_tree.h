@@ -10,7 +10,7 @@
 #include "executors/gl_pixels.h"
 #include "gl/api.h"
 #include "gl/program.h"
-#include "gl/timeline.h"
+#include "gl/sync.h"
 #include "plan/capabilities.h"
 #include "slicing/gl_march.h"
 #include "slicing/gl_slab_source.h"
@@ -63,7 +63,7 @@ class GlShaderTree : public GlMarchedPicture {
     std::optional<gl::Program> leaf_, node_, root_node_;
     GlMarch march_;
     GlPixels picture_;
-    std::optional<RowPace> pace_;
+    std::optional<gl::WorkPace> pace_;
     std::vector<gl::Buffer> levels_;  // by level: the children of one node, nearest first
     std::optional<gl::Buffer> kept_;  // what rays have passed between two dispatches of a leaf
     // The following belong to the frame.

@@ -71,6 +71,7 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
     if (plan.nearest) defines.set("NEAREST_LOOKUP", 1);
     if (plan.lighting) set_light_defines(*plan.lighting, defines);
     defines.set("INTERVALS", intervals);
+    if (plan.rays.blocks) defines.set("TABLE_BLOCKS", 1);
     if (plan.integrates_cells()) {
         defines.set("EXACT", 1);
         if (steps) defines.set("STEPS", 1);
@@ -110,7 +111,7 @@ GlSlabSource::GlSlabSource(const Volume& volume, const TransferFunction& transfe
     if (plan_.sampling != VolumeSampling::none) {
         tables_.emplace(transfer_function, range_,
                         plan_.uses_table() ? plan_.table.knot_table().get() : nullptr,
-                        plan_.table_filtered, exact ? 0 : sampled_step_advance);
+                        plan_.table_filtered, exact ? 0 : sampled_step_advance, plan_.rays.blocks);
     }
     table_ms_ = tables.end();
     take_plan(plan);

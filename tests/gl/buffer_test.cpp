@@ -3,11 +3,14 @@
 
 #include <glad/gl.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
 
 #include "gl/framebuffer.h"
+#include "gl/sync.h"
+#include "gl/texture.h"
 #include "gl_fixture.h"
 
 namespace lamina::gl {
@@ -73,6 +76,71 @@ TEST_F(BufferTest, CountsItsBytesAlsoWhenMoved) {
     EXPECT_EQ(first.byte_count(), 28u);
     const Buffer third(std::move(first));
     EXPECT_EQ(bytes_allocated(), 28);
+}
+
+using ReadBackTest = EveryContextTest;
+INSTANTIATE_TEST_SUITE_P(Contexts, ReadBackTest, both_contexts, context_name);
+
+// Counts up in a buffer that is mapped in software and in one that never is.
+TEST_P(ReadBackTest, FindsWhatDispatchesWroteBeforeIt) {
+    constexpr int numbers = 3 << 14;
+    Program program = compute_program(R"(#version 450 core
+        layout(local_size_x = 64) in;
+        layout(std430, binding = 1) buffer Numbers { uint numbers[]; };
+        uniform int factor;
+        void main() {
+            uint i = gl_GlobalInvocationID.x;
+            numbers[i] = numbers[i] + uint(factor) * i;
+        }
+    )");
+    ReadBack reading;
+    for (const bool readable : {true, false}) {
+        constexpr std::size_t bytes = numbers * sizeof(std::uint32_t);
+        Buffer storage = readable ? Buffer::make_readable(bytes) : Buffer(bytes);
+        EXPECT_EQ(storage.mapped() != nullptr, readable && capabilities().software);
+        storage.clear();
+        storage.bind_storage(1);
+        std::uint32_t sum = 0;
+        for (const int factor : {5, 70000}) {
+            program.set("factor", factor);
+            program.dispatch(numbers / 64);
+            reading.take(storage);
+            sum += static_cast<std::uint32_t>(factor);
+            const auto found = reading.values<std::uint32_t>();
+            ASSERT_EQ(found.size(), std::size_t{numbers});
+            for (std::size_t i = 0; i < found.size(); ++i)
+                ASSERT_EQ(found[i], sum * static_cast<std::uint32_t>(i)) << readable;
+        }
+    }
+}
+
+// A copy is complete although the buffer is written again before anyone looks at it.
+TEST_P(ReadBackTest, KeepsWhatWasTakenFromABufferThatIsWrittenAgain) {
+    const std::array<std::uint32_t, 3> before{1, 2, 3}, after{4, 5, 6};
+    Buffer storage{std::span(before)};
+    ReadBack reading;
+    reading.take(storage);
+    storage.write(std::span(after));
+    EXPECT_TRUE(std::ranges::equal(reading.values<std::uint32_t>(), before));
+    reading.take(storage);
+    EXPECT_TRUE(std::ranges::equal(reading.values<std::uint32_t>(), after));
+}
+
+// A smaller thing is read into the memory of a larger one.
+TEST_P(ReadBackTest, TakesTexturesOfAllSizesAndFormats) {
+    ReadBack reading;
+    std::vector<float> halves(std::size_t{4} * 7 * 5 * 2);
+    for (std::size_t i = 0; i < halves.size(); ++i) halves[i] = static_cast<float>(i) / 2;
+    Texture large = Texture::make_3d(TextureFormat::rgba16f, 7, 5, 2);  // these are exact in it
+    large.upload({0, 0, 0, 7, 5, 2}, std::span<const float>(halves));
+    reading.take(large);
+    EXPECT_TRUE(std::ranges::equal(reading.values<float>(), halves));
+    const std::array<std::uint8_t, 3> codes{0, 255, 0};
+    Texture small = Texture::make_1d(TextureFormat::r8, 3);
+    small.upload({.width = 3}, std::span<const std::uint8_t>(codes));
+    reading.take(small);
+    EXPECT_TRUE(std::ranges::equal(reading.values<float>(),
+                                   std::array<float, 12>{0, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1}));
 }
 
 // Draws two triangles, which cover the left and the right half of the target, with indices and a

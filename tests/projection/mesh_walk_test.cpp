@@ -207,6 +207,38 @@ TEST_P(MeshWalk, SearchesManyPointsOfTheTransferFunction) {
     }
 }
 
+// Tables are read as storage blocks or as texels. The transfer function has so many points that its
+// intervals are searched for.
+TEST_P(MeshWalk, DrawsTheSameFromStorageBlocks) {
+    const SceneMesh mesh = scene_mesh(
+        test::kuhn_box({5, 4, 3}, [](const glm::dvec3& p) { return .1 * p.x + .3 * p.z * p.y; }));
+    std::vector<TransferKnot> knots;
+    for (int i = 0; i <= 40; ++i)
+        knots.push_back(knot(.1 * i, {.25 * (i % 4), .5, .3 * (i % 3)}, .5 * (i % 5)));
+    Scene scene = projection_scene(TransferFunction::linear(knots), 61, 45);
+    scene.camera->eye = {9, 12, 17};
+    scene.camera->center = {2.5, 2, 1.5};
+    for (const bool lit : {false, true}) {
+        if (lit) {
+            Lighting lighting;
+            lighting.smallest_gradient = .05;
+            scene.lighting = lighting;
+        }
+        Capabilities each = capabilities();
+        each.software = false;  // else lit rays do not walk
+        const auto draw = [&] {
+            const auto renderer = make_renderer(mesh, scene, each);
+            EXPECT_NE(dynamic_cast<const GlMeshWalk*>(renderer.get()), nullptr);
+            renderer->draw(View(*scene.camera, scene.width, scene.height));
+            return renderer->read();
+        };
+        const Image expected = draw();
+        each.rays.blocks = true;
+        EXPECT_EQ(draw().rgba, expected.rgba) << lit;
+        EXPECT_GT(expected.pixel(30, 22)[3], .1);
+    }
+}
+
 // Faces that cross the eye's plane would have to be listed for all pixels.
 TEST_P(MeshWalk, IsNotChosenAroundTheEye) {
     const SceneMesh mesh = scene_mesh(test::kuhn_box({2, 2, 2}, constant_field));

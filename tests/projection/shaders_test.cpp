@@ -136,7 +136,7 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
         for (const SegmentSource source : sources) compile(plan, source, true, true, 1);
     }
     for (ProjectPlan plan : geometry_plans()) {
-        plan.windowed = true;
+        plan.windowed = plan.blocks = true;
         for (const SegmentSource source :
              {SegmentSource::table, SegmentSource::cut_table, SegmentSource::analytic})
             compile(plan, source, false, true, 4);
@@ -156,6 +156,7 @@ TEST_F(ProjectionShaders, EveryPlanCompiles) {
     const auto compile_walk = [&](ProjectPlan plan, SegmentSource source, bool single_color,
                                   bool filtered) {
         plan.walk = true;
+        plan.blocks = plan.orthographic;
         plan.source = source;
         plan.range = {0, 1};
         plan.single_color = single_color;

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays that compute shaders march in several dispatches, against the cpu engine and against one
 // dispatch.
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <set>
+#include <vector>
 
 #include "cpu_fixture.h"
+#include "slicing/gl_march.h"
 
 namespace lamina {
 namespace {
@@ -102,7 +108,8 @@ TEST_P(MarchTest, EveryDispatchOfRaysDrawsTheSame) {
             scene.slice.classification = each;
             const Image expected = render(volume_, scene, capabilities());
             for (const RayDispatch& rays :
-                 {RayDispatch{32, false}, RayDispatch{64, true}, RayDispatch{128, true}}) {
+                 {RayDispatch{32, false, true}, RayDispatch{64, true}, RayDispatch{128, true, true},
+                  RayDispatch{32, true, false, true}}) {
                 Capabilities other = capabilities();
                 other.rays = rays;
                 other.sample_words = !plan_of(scene, capabilities()).words;
@@ -111,6 +118,108 @@ TEST_P(MarchTest, EveryDispatchOfRaysDrawsTheSame) {
             }
         }
     }
+}
+
+// A GPU's dispatches are chosen by their times, and leaves of trees are not waited for one by one.
+TEST_P(MarchTest, DispatchesThatAreTimedDrawTheSame) {
+    Capabilities timed = capabilities();
+    timed.software = false;
+    const TransferFunction white =
+        TransferFunction::linear({knot(0, {1, 1, 1}, .9), knot(255, {1, 1, 1}, 1)});
+    for (const Target target : {Target::float32, Target::emulated}) {
+        for (const bool tree : {false, true}) {
+            Scene scene = scene_of(64, tree ? white : many_points());
+            scene.height = 170;
+            scene.target = target;
+            if (tree) {
+                scene.slice.tree = TreeSettings{.factors = {8, 8}};
+                if (target == Target::emulated) (*scene.slice.tree)->nodes = NodeArithmetic::fixed;
+            }
+            const Facts facts = measure(scene, volume_, measure_bricks(volume_));
+            const SlicePlan plan = plan_of(scene, capabilities());
+            const Image expected = render(volume_, scene, capabilities());
+            GlSliceRenderer renderer(volume_, *scene.transfer_function, facts, plan, timed,
+                                     scene.width, scene.height);
+            for (int frame = 0; frame < 3; ++frame) {
+                renderer.draw(View(*scene.camera, scene.width, scene.height));
+                EXPECT_EQ(renderer.read().rgba, expected.rgba) << name_of(target) << " " << tree;
+            }
+        }
+    }
+}
+
+// What tiles take is known from the second frame on.
+TEST_P(MarchTest, TilesSortedByCostDrawTheSame) {
+    Capabilities sorted = capabilities();
+    sorted.rays.sorted = true;
+    Scene scene = scene_of(64, many_points());
+    for (const Target target : {Target::float32, Target::emulated}) {
+        scene.target = target;
+        const Facts facts = measure(scene, volume_, measure_bricks(volume_));
+        const auto renderer_of = [&](const Capabilities& each) {
+            return std::make_unique<GlSliceRenderer>(volume_, *scene.transfer_function, facts,
+                                                     make_plan(scene, facts, each, {}).slice, each,
+                                                     scene.width, scene.height);
+        };
+        const auto expected = renderer_of(capabilities()), found = renderer_of(sorted);
+        Camera camera = *scene.camera;
+        for (int frame = 0; frame < 3; ++frame) {
+            const View view(camera, scene.width, scene.height);
+            expected->draw(view);
+            found->draw(view);
+            EXPECT_EQ(found->read().rgba, expected->read().rgba) << frame;
+            camera.eye.x += .1;
+        }
+    }
+}
+
+// A shader copies the list, and says that the tile of a column and row of the picture takes
+// (3 column + 5 row) % 11. The drawn pixels begin within a tile.
+TEST_P(MarchTest, TilesThatTookLongestComeFirst) {
+    constexpr int columns = 8, rows = 6;  // of 61 x 45 pixels
+    const DrawnPixels pixels{3, 5, 50, 44};
+    const int across = 6, down = 5;  // tiles of these
+    const auto cost = [](int column, int row) { return (3 * column + 5 * row) % 11; };
+    gl::Program program = gl::compute_program(R"(#version 450 core
+        layout(local_size_x = 1) in;
+        layout(std430, binding = 0) writeonly buffer Copy { uint copied[]; };
+        layout(std430, binding = 5) readonly buffer Order { uint tile_order[]; };
+        layout(std430, binding = 6) writeonly buffer Costs { uint tile_costs[]; };
+        uniform int cost_columns;
+        void main() {
+            uvec2 tile = gl_WorkGroupID.xy;
+            uint place = tile.y * gl_NumWorkGroups.x + tile.x;
+            copied[place] = tile_order[place];
+            tile_costs[tile.y * uint(cost_columns) + tile.x] = (3u * tile.x + 5u * tile.y) % 11u;
+        }
+    )");
+    TilesByCost tiles(61, 45, 64);
+    const gl::Buffer copy(columns * rows * sizeof(std::uint32_t));
+    std::vector<int> costs;  // in the order of the list
+    for (int frame = 0; frame < 2; ++frame) {
+        tiles.begin_frame();
+        tiles.bind(pixels, program);
+        copy.bind_storage(0);
+        program.dispatch(columns, rows);
+        tiles.end_frame();
+        std::vector<std::uint32_t> listed(across * down);
+        copy.read(std::span(listed));
+        std::set<std::uint32_t> all;
+        costs.clear();
+        for (std::size_t i = 0; i < listed.size(); ++i) {
+            const auto column = static_cast<int>(listed[i] & 0xffff);
+            const auto row = static_cast<int>(listed[i] >> 16);
+            if (frame == 0) {
+                EXPECT_EQ(row * across + column, static_cast<int>(i));
+            }
+            EXPECT_TRUE(column < across && row < down);
+            all.insert(listed[i]);
+            costs.push_back(cost((3 + 8 * column) / 8, (5 + 8 * row) / 8));
+        }
+        EXPECT_EQ(all.size(), listed.size());
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(costs, std::greater()));
+    EXPECT_GT(costs.front(), costs.back());
 }
 
 }  // namespace

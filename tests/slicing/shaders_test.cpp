@@ -103,6 +103,7 @@ std::vector<SlicePlan> every_segment_plan() {
         plan.nan_transparent = (bits & 4) != 0;
         plan.float_texture = (bits & 8) != 0;
         plan.precise_rays = (bits & 16) != 0;
+        plan.rays.blocks = plan.single_color;
         plan.nearest = (bits & 32) != 0;
         plans.push_back(plan);
     }
@@ -117,6 +118,7 @@ std::vector<SlicePlan> two_segment_plans() {
     most.classification = Classification::preintegrated;
     most.nan_transparent = true;
     most.clip.resize(38);
+    most.rays.blocks = true;
     SlicePlan least;
     least.sampling = VolumeSampling::none;
     least.precise_rays = false;
@@ -212,7 +214,7 @@ SlicePlan exact_nodes(bool lit) {
     SlicePlan plan;
     plan.classification = Classification::exact;
     if (lit) plan.lighting.emplace();
-    plan.rays = lit ? RayDispatch{128, true} : RayDispatch{32, false};
+    plan.rays = lit ? RayDispatch{128, true, true, true} : RayDispatch{32, false, false, true};
     plan.tree = TreePlan{.factors = {4}};
     plan.occupied_only = true;
     plan.opaque_depth = 9;

@@ -54,7 +54,7 @@ void compare_runs(bool colored, int layers, bool filtered, bool lit = false) {
     plan.table_filtered = filtered;
     plan.table.request = {0, 1, 1.0, 256, layers, colored, lit};
     const KnotTable table(transfer_function, plan.table.request);
-    const GlTransferTables tables(transfer_function, {0, 1}, &table, filtered, 0);
+    const GlTransferTables tables(transfer_function, {0, 1}, &table, filtered, 0, false);
     gl::Program program = gl::full_screen_program(
         "#version 450 core\n"
         "#include \"preintegration/knot_table.glsl\"\n"

@@ -10,8 +10,10 @@ from gpu_check_parts.frames import TIMED, WARM_UP
 # Name, LAMINA_RAYS (docs/gpu.md), and arguments. The first way of a list is the one that all others are compared with.
 DRAWN = ("drawn as fragments", "", ["--no-omit=blending"])
 MARCHES = (("texels, 64", "texels,64", []), ("texels, 32", "texels,32", []), ("texels, 128", "texels,128", []),
-           ("words, 64", "words,64", []), ("texels, 64, queue", "texels,64,queue", []), DRAWN)
-WALKS = (("rays walk", "", []), DRAWN)
+           ("words, 64", "words,64", []), ("texels, 64, blocks", "texels,64,blocks", []),
+           ("texels, 64, sorted", "texels,64,sorted", []), ("texels, 64, queue", "texels,64,queue", []),
+           ("texels, 64, sorted queue", "texels,64,sorted,queue", []), DRAWN)
+WALKS = (("rays walk", "", []), ("rays walk, blocks", "blocks", []), DRAWN)
 SIZE, QUICK_SIZE = "800x600", "96x72"
 
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gl/framebuffer.h"
+#include "gl/sync.h"
 #include "gl/texture.h"
 #include "gl/timeline.h"
 
