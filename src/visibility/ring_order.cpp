@@ -118,9 +118,9 @@ bool covers_some(const SeenPolygon& polygon, const PixelArea& area) {
 // Edges that CycleBreaker may visit, per constraint: what it breaks, smaller rectangles solve.
 constexpr std::int64_t work_a_constraint = 16;
 
-// Largest number of pixels that are ordered one by one if tets overlap: there, smaller rectangles
-// are mostly wrong, too.
-constexpr std::int64_t most_pixels_alone = 16;
+// Pixels are ordered one by one, if tets overlap, where this takes at most so many looks at tets a
+// constraint: to halve a rectangle again and again takes longer.
+constexpr std::int64_t looks_a_constraint = 32;
 
 // Two tets overlap on a ray if they share more than the sum of these parts of the shorter tet's
 // length and of the depth. Both are far above rounding (1e-16 of the depth, over a face's slope of
@@ -281,7 +281,7 @@ void RingOrder::solve(const Problem& problem) {
         return;
     }
     draw_around(problem, solution);
-    if (wrong.count() <= (graph_.orders_overlaps() ? most_pixels_alone : 1)) {
+    if (wrong.count() == 1 || (graph_.orders_overlaps() && is_dense(problem, wrong))) {
         draw_pixels(problem, wrong);
         return;
     }
@@ -332,6 +332,12 @@ void RingOrder::draw_around(const Problem& problem, const Solution& solution) {
     right.last_column = all.last_column;
     for (const PixelArea& pixels : {above, below, left, right})
         draw(problem, solution.order, pixels);
+}
+
+bool RingOrder::is_dense(const Problem& problem, const PixelArea& pixels) {
+    std::int64_t looks = 0;
+    for (const Member& member : problem.tets) looks += common_pixels(member.pixels, pixels).count();
+    return looks <= looks_a_constraint * std::ssize(problem.constraints);
 }
 
 void RingOrder::draw_pixels(const Problem& problem, const PixelArea& pixels) {

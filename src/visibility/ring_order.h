@@ -129,6 +129,7 @@ class RingOrder {
     void draw(const Problem& problem, std::span<const std::int32_t> order, const PixelArea& pixels);
     void draw_around(const Problem& problem, const Solution& solution);
     View::Ray ray_of(const PixelArea& pixel) const;
+    static bool is_dense(const Problem& problem, const PixelArea& pixels);
     void draw_pixels(const Problem& problem, const PixelArea& pixels);
     void draw_pixel(const Problem& problem, const PixelArea& pixel);
     void draw_by_entry(const Problem& problem, const PixelArea& pixel);

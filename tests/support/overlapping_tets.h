@@ -46,7 +46,7 @@ inline MeshData tet_soup(int count, std::uint32_t seed) {
         std::array<glm::dvec3, 4> corners;
         for (glm::dvec3& corner : corners)
             corner =
-                .4 * middle + .6 * glm::dvec3(uniform(random), uniform(random), uniform(random));
+                .2 * middle + .8 * glm::dvec3(uniform(random), uniform(random), uniform(random));
         append_tet(mesh, corners);
     }
     return mesh;
@@ -104,7 +104,7 @@ inline std::vector<OverlapCase> overlap_cases() {
     append_tet(inside, regular_tet({.8, .3, .7}, .3));
     for (const int count : {2, 3, 5, 8, 13, 20, 50})
         cases.push_back({std::to_string(count) + " random ones",
-                         tet_soup(count, static_cast<std::uint32_t>(count))});
+                         tet_soup(count, static_cast<std::uint32_t>(count + 4))});
     return cases;
 }
 
