@@ -31,18 +31,28 @@ struct PlacedTet {
 constexpr std::array<std::array<std::size_t, 2>, 6> edges{
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-// Tells whether a face of `a` separates the tets, which may touch: decides exactly.
-bool face_separates(const PlacedTet& a, const PlacedTet& b) {
+struct FacePlane {
+    Triangle corners;
+    RoundedPlane plane;
+};
+
+std::array<FacePlane, 4> faces_of(const PlacedTet& tet) {
+    std::array<FacePlane, 4> found;
     for (std::size_t face = 0; face < 4; ++face) {
         const auto [i, j, k] = corners_of_face({0, 1, 2, 3}, face);
-        const Triangle corners{a.corners[i], a.corners[j], a.corners[k]};
-        const RoundedPlane plane(corners[1] - corners[0], corners[2] - corners[0]);
-        if (std::ranges::all_of(b.corners, [&](const glm::dvec3& point) {
-                return side_of(corners, plane, point) >= 0;
-            }))
-            return true;
+        const Triangle corners{tet.corners[i], tet.corners[j], tet.corners[k]};
+        found[face] = {corners, RoundedPlane(corners[1] - corners[0], corners[2] - corners[0])};
     }
-    return false;
+    return found;
+}
+
+// Tells whether one of a tet's faces separates it from another tet, which may touch it. Exact.
+bool some_separates(const std::array<FacePlane, 4>& faces, const PlacedTet& other) {
+    return std::ranges::any_of(faces, [&](const FacePlane& face) {
+        return std::ranges::all_of(other.corners, [&](const glm::dvec3& point) {
+            return side_of(face.corners, face.plane, point) >= 0;
+        });
+    });
 }
 
 // Tells whether the plane through `base` that is parallel to two edges surely has tet `a` on its
@@ -125,6 +135,7 @@ std::optional<std::vector<TetPair>> overlapping_pairs(const TetMesh& mesh, std::
             if (left < 0 || total > most) return;
             if (flat(first)) continue;
             const PlacedTet here = placed(first);
+            const std::array<FacePlane, 4> faces = faces_of(here);
             const auto& neighbors = mesh.neighbors()[first];
             std::int64_t tests = 0;
             const std::size_t before = mine.size();
@@ -134,7 +145,8 @@ std::optional<std::vector<TetPair>> overlapping_pairs(const TetMesh& mesh, std::
                            if (std::ranges::find(neighbors, second) != neighbors.end()) return;
                            ++tests;
                            const PlacedTet there = placed(second);
-                           if (face_separates(here, there) || face_separates(there, here) ||
+                           if (some_separates(faces, there) ||
+                               some_separates(faces_of(there), here) ||
                                edges_separate(here, there) || flat(second))
                                return;
                            mine.emplace_back(static_cast<std::int32_t>(first), second);

@@ -120,7 +120,7 @@ constexpr std::int64_t work_a_constraint = 16;
 
 // Pixels are ordered one by one, if tets overlap, where this takes at most so many looks at tets a
 // constraint: to halve a rectangle again and again takes longer.
-constexpr std::int64_t looks_a_constraint = 32;
+constexpr std::int64_t looks_a_constraint = 8;
 
 // Two tets overlap on a ray if they share more than the sum of these parts of the shorter tet's
 // length and of the depth. Both are far above rounding (1e-16 of the depth, over a face's slope of

@@ -131,9 +131,11 @@ TEST_P(Rings, AreDrawnAsTheTracerSeesThemIfTetsOverlap) {
     light.smallest_gradient = .1;
     for (const test::OverlapCase& each : test::overlap_cases()) {
         const SceneMesh mesh = scene_mesh(each.mesh);
+        const bool has_lit_case = !each.name.ends_with("random ones");  // to save time
         // The second eye is inside of some meshes.
         for (const glm::dvec3& eye : {glm::dvec3(.3, .4, 2.4), glm::dvec3(.52, .45, .43)}) {
             for (const bool lit : {false, true}) {
+                if (lit && !has_lit_case) continue;
                 Scene scene = scene_at(eye, {.5, .5, .48});
                 if (lit) scene.lighting = light;
                 EXPECT_EQ(plan_of(mesh, scene, capabilities()).project.error.kind,
