@@ -2,16 +2,26 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "facts/drawn_range.h"
 #include "mesh/mesh_shape.h"
 #include "mesh/tet_mesh.h"
+#include "mesh/tet_overlaps.h"
+#include "scene/clip.h"
 #include "scene/scene.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
+
+// What is known of tets that share space with others.
+struct MeshOverlap {
+    std::int64_t tets = 0;  // count_overlapping_tets() (mesh/mesh_shape.h)
+    // overlapping_pairs(); null if there are too many, or no tets. Shared by plans of one mesh.
+    std::shared_ptr<const std::vector<TetPair>> pairs;
+};
 
 // Properties of a mesh and its view. They are measured, not taken from files.
 struct MeshFacts {
@@ -27,7 +37,7 @@ struct MeshFacts {
     double shortest_edge = 0, longest_edge = 0;  // world units
     double diagonal = 0;                         // diagonal of the bounding box, world units
     Convexity convexity = Convexity::none;
-    std::int64_t overlapping_tets = 0;  // tets that share space with others (mesh/mesh_shape.h)
+    MeshOverlap overlap;
 
     // The following describe the transfer function over `range`.
     bool constant = false;  // one colour, one extinction
@@ -73,13 +83,19 @@ inline bool is_right_order(const Auto<ProjectOrder>& order) {
     return order.is_automatic() || order == ProjectOrder::exact;
 }
 
+// Tells whether pictures show all overlapping tets, if any, as the tracer defines them (EntryRule):
+// the tets that a clip cuts are several, which rays enter at places of their own.
+inline bool orders_overlaps(const Scene& scene, const MeshOverlap& overlap) {
+    return overlap.tets == 0 || (overlap.pairs && half_spaces(scene.clip).empty());
+}
+
 // Measures all facts. Throws Error as check_finite() does.
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh);
 
 // Parts of measure(): mesh and transfer function, the view without rays, and trial_rays.
 MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh);
-// Returns MeshFacts::overlapping_tets, which takes longer and depends on the mesh alone.
-std::int64_t measure_overlap(const SceneMesh& mesh, Convexity convexity);
+// Returns MeshFacts::overlap, which takes longer and depends on the mesh alone.
+MeshOverlap measure_overlap(const SceneMesh& mesh, Convexity convexity);
 void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);
 

@@ -12,15 +12,22 @@ constexpr std::int32_t faces_per_leaf = 4;
 
 constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 
+std::vector<FaceTree::Box> boxes_of(const TetMesh& mesh, std::span<const TetFace> faces) {
+    std::vector<FaceTree::Box> boxes;
+    boxes.reserve(faces.size());
+    for (const TetFace& face : faces) boxes.push_back(FaceTree::box_around(mesh.corners(face)));
+    return boxes;
+}
+
 }  // namespace
 
-FaceTree::FaceTree(const TetMesh& mesh, std::span<const TetFace> faces) : order_(faces.size()) {
-    std::vector<Box> boxes;
-    boxes.reserve(faces.size());
-    for (const TetFace& face : faces) boxes.push_back(box_around(mesh.corners(face)));
+FaceTree::FaceTree(const TetMesh& mesh, std::span<const TetFace> faces)
+    : FaceTree(boxes_of(mesh, faces)) {}
+
+FaceTree::FaceTree(std::span<const Box> boxes) : order_(boxes.size()) {
     std::iota(order_.begin(), order_.end(), 0);
-    nodes_.reserve(faces.size());
-    if (!faces.empty()) build(boxes, 0, static_cast<std::int32_t>(faces.size()));
+    nodes_.reserve(boxes.size());
+    if (!boxes.empty()) build(boxes, 0, static_cast<std::int32_t>(boxes.size()));
 }
 
 // Splits at the median of the boxes' centers, along the axis on which these extend most.

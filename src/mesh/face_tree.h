@@ -28,6 +28,8 @@ class FaceTree {
     }
 
     FaceTree(const TetMesh& mesh, std::span<const TetFace> faces);
+    // Makes a tree of other things than faces, by their boxes.
+    explicit FaceTree(std::span<const Box> boxes);
 
     // Calls visit(face index) for the faces of each leaf if meets(box) holds in it and all nodes
     // above.

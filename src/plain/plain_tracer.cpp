@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/client.h"
@@ -152,6 +153,8 @@ struct PlainMesh {
     std::span<const glm::dvec3> points;
     std::vector<Field> fields;  // one a point
     std::vector<Tet> tets;      // the visible ones
+    double first_entry = 0;     // z at which tets that begin before it count as entered
+    double tie = 0;             // world units within which two tets are entered at one place
     // Returns the half space behind the face opposite a corner, which the tet is in. Both tets of a
     // face begin with its least place, so that their planes are equal to the last bit.
     HalfSpace behind(const Tet& tet, int opposite) const {
@@ -175,8 +178,16 @@ struct PlainMesh {
 
 // Keeps tets with volume and finite values. The gradient at a point is the mean of those of the
 // tets around it and its copies of one value, weighted by volume (docs/numerics.md, section 10).
-PlainMesh plain_mesh(const SceneMesh& data) {
-    PlainMesh mesh{data.mesh.points(), {}, {}};
+PlainMesh plain_mesh(const Scene& scene, const SceneMesh& data) {
+    const View view(*scene.camera, scene.width, scene.height);
+    const auto& [low, high] = data.mesh.bounds();
+    const bool perspective = view.projection == Projection::perspective;
+    const glm::dvec3 far = glm::max(glm::abs(low - view.eye), glm::abs(high - view.eye));
+    PlainMesh mesh{data.mesh.points(),
+                   {},
+                   {},
+                   perspective ? 0 : -INFINITY,
+                   1e-10 * glm::length(perspective ? far : high - low)};
     for (const double scalar : data.scalar.values) mesh.fields.emplace_back(0, 0, 0, scalar);
     const std::vector<std::int32_t> firsts = equal_points(data.mesh, data.scalar.values);
     const auto first = [&](std::int32_t i) { return firsts.empty() ? i : firsts[i]; };
@@ -219,8 +230,22 @@ std::vector<Segment> meet(const PlainMesh& mesh, const View::Ray& ray, const Spa
         const double length = (span.to - span.from) * glm::length(ray.direction);
         found.push_back({entry, length, {front, back - front}});
     }
-    std::ranges::stable_sort(found, {}, &Segment::entry);
-    return found;
+    // Sorts tets, now in the order of their numbers, by entry. Tets entered at one place get the
+    // entry of the first one of them, and so keep the order of their numbers.
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < found.size(); ++i)
+        order.emplace_back(std::max(found[i].entry, mesh.first_entry), i);
+    std::ranges::sort(order);
+    const double tie = mesh.tie / glm::length(ray.direction);
+    double last = -INFINITY;  // entry of the segment before, as it was
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const double entry = order[i].first;
+        if (entry - std::exchange(last, entry) <= tie) order[i].first = order[i - 1].first;
+    }
+    std::ranges::sort(order);
+    std::vector<Segment> sorted;
+    for (const auto& [entry, i] : order) sorted.push_back(found[i]);
+    return sorted;
 }
 
 // Adds up the light of a ray, front to back (docs/numerics.md, sections 1 and 10).
@@ -369,6 +394,6 @@ PlainPicture trace_plainly(const Scene& scene, const Volume& volume) {
     return trace(scene, volume);
 }
 PlainPicture trace_plainly(const Scene& scene, const SceneMesh& mesh) {
-    return trace(scene, plain_mesh(mesh));
+    return trace(scene, plain_mesh(scene, mesh));
 }
 }  // namespace lamina

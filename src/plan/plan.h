@@ -103,6 +103,8 @@ struct ProjectedPicture : CompositingPlan, LightPlan {
     OrderMethod visibility = OrderMethod::exact;
     // True: rings of tets that hide one another are sorted by pixel (visibility/ring_order.h).
     bool solve_rings = false;
+    // The pairs of tets that overlap, to be ordered by entry (mesh/tet_overlaps.h); may be null.
+    std::shared_ptr<const std::vector<TetPair>> overlaps;
     ProjectGeometry geometry = ProjectGeometry::silhouette;  // never automatic
     ProjectDither dither = ProjectDither::none;
     std::uint32_t seed = 1;  // of the random numbers of dithering and stochastic rounding

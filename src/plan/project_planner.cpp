@@ -161,6 +161,7 @@ struct ProjectPlanner {
             // `auto` takes `mpvo` for a convex mesh, for which it is right.
             (settings.order == ProjectOrder::mpvo && facts.convexity != Convexity::none);
         plan.visibility = choose_visibility();
+        plan.overlaps = facts.overlap.pairs;
         plan.dither = choose_dither();
         if (scene.target == Target::emulated) plan.emulation = scene.emulate;
         if (plan.emulation || plan.dither == ProjectDither::after_blend) choose_blending();
@@ -340,7 +341,7 @@ struct ProjectPlanner {
                !(capabilities.software && scene.lighting) && plan.target == Target::float32 &&
                plan.geometry == ProjectGeometry::silhouette && plan.tree.empty() &&
                plan.thickness == Thickness::exact && !plan.nothing_visible &&
-               (plan.solve_rings || plan.single_color) && facts.overlapping_tets == 0 &&
+               (plan.solve_rings || plan.single_color) && facts.overlap.tets == 0 &&
                facts.shortest_edge > shortest * facts.diagonal && !plan.windowed &&
                (facts.orthographic || facts.box_in_front) &&
                (!capabilities.software || scene.transfer_function->knots().size() <= most_points) &&
@@ -355,7 +356,7 @@ struct ProjectPlanner {
     }
 
     // Returns the error, or none for pictures that are wrong on purpose; for triangles, whose
-    // corners lie on a rasteriser's grid; and for overlapping tets, which have no right picture.
+    // corners lie on a rasteriser's grid; and for overlapping tets that are not ordered by entry.
     ErrorFigure picture_error() const {
         if (plan.nothing_visible) return {ErrorKind::derived, 0, 0};
         const bool integrated =
@@ -364,9 +365,10 @@ struct ProjectPlanner {
             plan.geometry == ProjectGeometry::silhouette &&
             (plan.orthographic || plan.interpolation == Interpolation::perspective) &&
             plan.thickness == Thickness::exact;
-        const bool sorted = plan.solve_rings || plan.single_color;
+        const bool sorted =
+            plan.single_color || (plan.solve_rings && orders_overlaps(scene, facts.overlap));
         const bool stored = plan.target == Target::float32 && plan.tree.empty();
-        if (!integrated || !straight || !sorted || !stored || facts.overlapping_tets > 0) return {};
+        if (!integrated || !straight || !sorted || !stored) return {};
         const MeshFacts::TrialError& found = plan.trial_error;
         // A picture is linear in its colours.
         const double brightest = std::max(largest_drawn_color(scene, facts.max_color), 1.0);

@@ -20,7 +20,9 @@ ProjectRenderer::ProjectRenderer(const SceneMesh& mesh, const TransferFunction& 
     const OrderMethod method =
         plan.nothing_visible || plan.walk ? OrderMethod::none : plan.visibility;
     if (!order_ || order_->method() != method)
-        order_ = std::make_shared<VisibilityOrder>(mesh.mesh, method);
+        order_ = std::make_shared<VisibilityOrder>(
+            mesh.mesh, method,
+            plan.overlaps ? std::span(*plan.overlaps) : std::span<const TetPair>());
     if (plan_.nothing_visible) return;
     if (plan_.lighting) {
         const Stage stage("gradients");

@@ -6,10 +6,11 @@
 //           for each tet from the entry on, until the ray leaves the mesh (mesh_walk.h):
 //               cut its segment to the visible part (mesh_walk.h)
 //               composite it, if it may be visible (composite.h)
-// On rays on which the mesh overlaps itself, tets are composited in the order of entry.
+// On rays on which the mesh overlaps itself, tets are composited by entry (mesh/tet_overlaps.h).
 #include "reference/tracer.h"
 
 #include "mesh/tet_mesh.h"
+#include "mesh/tet_overlaps.h"
 #include "optics/ray_lights.h"
 #include "reference/composite.h"
 #include "reference/mesh_walk.h"
@@ -125,6 +126,10 @@ class MeshTile {
         ++totals_.overlapping_rays;
         const SeenRange range{seen_.first[lane], seen_.last[lane]};
         walk_.ray(lane).list(overlapping_);
+        sort_by_entry(
+            std::span(overlapping_),
+            entry_rule(picture_.mesh, eye_of(picture_.view), walk_.ray(lane).line().direction),
+            [](const TetSegment& segment) { return segment.in.at; }, &TetSegment::tet);
         for (const TetSegment& segment : overlapping_) {
             const Tet& tet = picture_.mesh.tets()[segment.tet];
             const auto [least, most] = range_in(picture_.scalar, tet);

@@ -266,8 +266,8 @@ class ProjectDrawing : public Drawing {
         facts_ = lamina::measure_data(scene, *mesh_);
         facts_.clipped_away = clipped_away_;
         if (!is_right_order(scene.project.order)) return;
-        if (!overlapping_tets_) overlapping_tets_ = measure_overlap(*mesh_, facts_.convexity);
-        facts_.overlapping_tets = *overlapping_tets_;
+        if (!overlap_) overlap_ = measure_overlap(*mesh_, facts_.convexity);
+        facts_.overlap = *overlap_;
     }
 
     // Trial rays choose between a table whose nodes lie on the transfer function's points, and
@@ -316,7 +316,7 @@ class ProjectDrawing : public Drawing {
         const auto add = [&](Warnings more) {
             for (std::string& warning : more) all.push_back(std::move(warning));
         };
-        add(plan_warnings(scene, facts_.overlapping_tets));
+        add(plan_warnings(scene, facts_.overlap));
         if (renderer_) add(frame_warnings(renderer_->order_report()));
         return all;
     }
@@ -350,7 +350,7 @@ class ProjectDrawing : public Drawing {
         clip_ = scene.clip;
         lit_ = lit;
         mesh_ = clipped_mesh(whole_, clip_, lit, name_of_mesh(scene));
-        overlapping_tets_.reset();
+        overlap_.reset();
         clipped_away_ = mesh_ == nullptr;
         if (clipped_away_) mesh_ = whole_;
     }
@@ -361,8 +361,8 @@ class ProjectDrawing : public Drawing {
     Clip clip_;
     bool lit_ = false;
     bool clipped_away_ = false;
-    std::optional<std::int64_t> overlapping_tets_;  // of mesh_, once they are counted
-    std::optional<Warnings> data_warnings_;         // of whole_, once they are asked for
+    std::optional<MeshOverlap> overlap_;     // of mesh_, once it is measured
+    std::optional<Warnings> data_warnings_;  // of whole_, once they are asked for
     MeshFacts facts_;
     std::unique_ptr<ProjectRenderer> renderer_;
 };

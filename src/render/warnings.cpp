@@ -273,14 +273,17 @@ Warnings plan_warnings(const Scene& scene, const SlicePlan& plan) {
     return warnings;
 }
 
-Warnings plan_warnings(const Scene& scene, std::int64_t overlapping_tets) {
+Warnings plan_warnings(const Scene& scene, const MeshOverlap& overlap) {
     Warnings warnings;
     add_clamped_colors(scene, warnings);
-    if (overlapping_tets > 0) {
-        warnings.push_back(
-            fmt::format("{}: {} tets overlap others: these have no right order, and the error of "
-                        "a picture is unknown where a ray meets them",
-                        name_of_mesh(scene), overlapping_tets));
+    if (overlap.tets > 0) {
+        warnings.push_back(fmt::format(
+            "{}: {} tets overlap others: {}", name_of_mesh(scene), overlap.tets,
+            orders_overlaps(scene, overlap) ? "a ray shows them one after the other, whole, in the "
+                                              "order in which it enters them"
+                                            : "they are not drawn in the order in which a ray "
+                                              "enters them, and the error of a picture is unknown "
+                                              "where a ray meets them"));
     }
     return warnings;
 }

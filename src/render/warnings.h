@@ -28,7 +28,7 @@ Warnings data_warnings(const Scene& scene, const SceneMesh& mesh);
 // the scene may be automatic.
 Warnings plan_warnings(const Scene& scene, const SlicePlan& plan);
 // Warns of colours that the target clamps, and of tets of the mesh that overlap others.
-Warnings plan_warnings(const Scene& scene, std::int64_t overlapping_tets);
+Warnings plan_warnings(const Scene& scene, const MeshOverlap& overlap);
 
 // Warns of tets that were drawn in a wrong order.
 Warnings frame_warnings(const OrderReport& order);

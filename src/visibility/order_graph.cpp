@@ -69,10 +69,17 @@ FaceSigns FaceSigner::signs(std::size_t index) const {
     return nearer | farther * farther_bit(0);
 }
 
-OrderGraph::OrderGraph(const TetMesh& mesh, bool across_gaps)
-    : mesh_(mesh), signs_(mesh.tets().size()), farther_counts_(mesh.tets().size()) {
+OrderGraph::OrderGraph(const TetMesh& mesh, bool across_gaps, std::span<const TetPair> overlaps)
+    : mesh_(mesh),
+      signs_(mesh.tets().size()),
+      farther_counts_(mesh.tets().size()),
+      faces_of_gaps_(mesh.open_faces()) {
     if (!across_gaps) return;
     gaps_ = std::make_unique<OpenFaceConstraints>(mesh);
+    if (!overlaps.empty()) {
+        overlaps_ = std::make_unique<OverlapConstraints>(mesh, overlaps);
+        faces_of_gaps_ = overlaps_->faces();
+    }
     first_gap_.resize(mesh.tets().size());
 }
 
@@ -94,28 +101,37 @@ void OrderGraph::look_from(const Eye& eye) {
     });
     if (!gaps_) return;
     gap_edges_ = gaps_->find(eye);
+    across_gaps_ = gap_edges_.size();
+    if (overlaps_) {
+        const auto more = overlaps_->find(eye);
+        all_edges_.assign(gap_edges_.begin(), gap_edges_.end());
+        all_edges_.insert(all_edges_.end(), more.begin(), more.end());
+        gap_edges_ = all_edges_;
+    }
     std::fill(first_gap_.begin(), first_gap_.end(), -1);
     next_gap_.resize(gap_edges_.size());
     // Backwards, because each edge is put at the front of its tet's list.
     for (std::size_t i = gap_edges_.size(); i-- > 0;) {
         const auto& [exit, entry] = gap_edges_[i];
-        const auto farther = static_cast<std::size_t>(mesh_.open_faces()[entry].tet);
+        const auto farther = static_cast<std::size_t>(faces_of_gaps_[entry].tet);
         next_gap_[i] = first_gap_[farther];
         first_gap_[farther] = static_cast<std::int32_t>(i);
-        ++farther_counts_[mesh_.open_faces()[exit].tet];
+        ++farther_counts_[faces_of_gaps_[exit].tet];
     }
 }
 
 OrderGraph::Passage OrderGraph::passage(std::int32_t tet, std::int32_t edge) const {
     if (edge < faces) {
         const Triangle face = mesh_.corners({tet, edge});
-        return {face, face, true};
+        return {face, face, true, false};
     }
-    const OpenFaceConstraint& gap = gap_edges_[edge - faces];
-    const auto corners = [&](std::int32_t open_face) {
-        return mesh_.corners(mesh_.open_faces()[open_face]);
-    };
-    return {corners(gap.exit), corners(gap.entry), false};
+    const auto index = static_cast<std::size_t>(edge - faces);
+    const OpenFaceConstraint& gap = gap_edges_[index];
+    const auto corners = [&](std::int32_t face) { return mesh_.corners(faces_of_gaps_[face]); };
+    Passage passed{corners(gap.exit), corners(gap.entry), false, index >= across_gaps_};
+    auto& [a, b, c] = passed.exit;
+    if (passed.behind && sign_as_seen(eye_, a, b, c) < 0) std::swap(b, c);
+    return passed;
 }
 
 double OrderGraph::area(std::int32_t tet, std::int32_t edge) const {

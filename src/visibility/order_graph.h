@@ -5,6 +5,7 @@
 #include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 #include "visibility/open_face_constraints.h"
+#include "visibility/overlap_constraints.h"
 
 namespace lamina {
 
@@ -66,12 +67,15 @@ class FaceSigner {
 // it: across a shared face or, if `across_gaps`, across a gap. The mesh must outlive this object.
 class OrderGraph {
   public:
-    OrderGraph(const TetMesh& mesh, bool across_gaps);
+    // `overlaps`: pairs of tets that overlap, which also get edges if there are gaps' edges
+    // (OverlapConstraints). Without them nothing is ordered by such pairs.
+    OrderGraph(const TetMesh& mesh, bool across_gaps, std::span<const TetPair> overlaps = {});
 
     void look_from(const Eye& eye);  // parallel
 
     const TetMesh& mesh() const { return mesh_; }
     const Eye& eye() const { return eye_; }
+    bool orders_overlaps() const { return overlaps_ != nullptr; }
 
     // Returns the signs of shared faces; no bit of an open face is set.
     FaceSigns signs(std::int32_t tet) const { return signs_[tet]; }
@@ -93,14 +97,15 @@ class OrderGraph {
     std::int32_t nearer(std::int32_t tet, std::int32_t edge) const {
         if (edge < faces) return mesh_.neighbors()[tet][edge];
         const OpenFaceConstraint& gap = gap_edges_[edge - faces];
-        return mesh_.open_faces()[gap.exit].tet;
+        return faces_of_gaps_[gap.exit].tet;
     }
     // Returns the seen area of the shared face, or of the overlap of the gap's two open faces.
     double area(std::int32_t tet, std::int32_t edge) const;
-    // The exit of the nearer tet and the entry of the farther one. A shared face is both.
+    // The exit of the nearer tet and the entry of the farther one. A shared face is both. If tets
+    // overlap, the exit may be the nearer tet's front face, and hides only what is `behind` it.
     struct Passage {
         Triangle exit, entry;
-        bool shared;
+        bool shared, behind;
     };
     Passage passage(std::int32_t tet, std::int32_t edge) const;
 
@@ -119,8 +124,12 @@ class OrderGraph {
     Eye eye_;
     std::vector<std::uint8_t> signs_;
     std::vector<std::int32_t> farther_counts_;
-    std::unique_ptr<OpenFaceConstraints> gaps_;  // null for shared faces only
+    std::unique_ptr<OpenFaceConstraints> gaps_;     // null for shared faces only
+    std::unique_ptr<OverlapConstraints> overlaps_;  // null if no overlapping tets are ordered
+    std::span<const TetFace> faces_of_gaps_;        // faces that gap_edges_ are indices of
     std::span<const OpenFaceConstraint> gap_edges_;
+    std::size_t across_gaps_ = 0;                // the first edges; others are of overlaps
+    std::vector<OpenFaceConstraint> all_edges_;  // memory of gap_edges_ if tets overlap
     std::vector<std::int32_t> first_gap_;  // first gap edge of each tet, or -1; empty without gaps
     std::vector<std::int32_t> next_gap_;   // next gap edge of the same tet, or -1
 };

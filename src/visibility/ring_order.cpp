@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "visibility/ring_order.h"
 
+#include <ranges>
+
 #include "base/client.h"
 
 namespace lamina {
@@ -77,6 +79,24 @@ SeenPolygon overlap_of(const SeenPolygon& a, const SeenPolygon& b) {
     return common;
 }
 
+// A triangle cut by a plane.
+struct ClippedTriangle {
+    std::array<glm::dvec3, 4> corners;
+    std::size_t count = 0;
+    void add(const glm::dvec3& corner) {
+        if (count < corners.size()) corners[count++] = corner;
+    }
+};
+
+// Returns the part of an entry that is behind an exit's plane, or less than `slack` in front of it.
+ClippedTriangle part_behind(const Triangle& exit, const Triangle& entry, double slack) {
+    const glm::dvec3 normal = glm::cross(exit[1] - exit[0], exit[2] - exit[0]);
+    const double least = -slack * glm::length(normal);
+    return cut(ClippedTriangle{{entry[0], entry[1], entry[2]}, 3}, [&](const glm::dvec3& corner) {
+        return glm::dot(normal, corner - exit[0]) - least;
+    });
+}
+
 // Returns the rectangle around the pixels whose centres a polygon (nearly) covers.
 PixelArea covered_pixels(const SeenPolygon& polygon, const PixelArea& area) {
     PixelArea covered = no_pixels;
@@ -97,6 +117,10 @@ bool covers_some(const SeenPolygon& polygon, const PixelArea& area) {
 }
 // Edges that CycleBreaker may visit, per constraint: what it breaks, smaller rectangles solve.
 constexpr std::int64_t work_a_constraint = 16;
+
+// Pixels are ordered one by one, if tets overlap, where this takes at most so many looks at tets a
+// constraint: to halve a rectangle again and again takes longer.
+constexpr std::int64_t looks_a_constraint = 8;
 
 // Two tets overlap on a ray if they share more than the sum of these parts of the shorter tet's
 // length and of the depth. Both are far above rounding (1e-16 of the depth, over a face's slope of
@@ -142,12 +166,11 @@ glm::dvec2 PixelFinder::place_of(const glm::dvec3& seen) const {
     return {window.x - 0.5, window_.view().height - 0.5 - window.y};
 }
 
-SeenPolygon PixelFinder::polygon(const Triangle& triangle) const {
+SeenPolygon PixelFinder::polygon(std::span<const glm::dvec3> corners) const {
     SeenPolygon seen;
-    const std::array<glm::dvec3, 3> corners{window_.see(triangle[0]), window_.see(triangle[1]),
-                                            window_.see(triangle[2])};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const glm::dvec3 &a = corners[i], &b = corners[(i + 1) % 3];
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const glm::dvec3 a = window_.see(corners[i]),
+                         b = window_.see(corners[i + 1 < corners.size() ? i + 1 : 0]);
         if (!window_.perspective() || a.z >= near_) seen.add(place_of(a));
         if (window_.perspective() && (a.z < near_) != (b.z < near_)) {
             glm::dvec3 at = a + (near_ - a.z) / (b.z - a.z) * (b - a);
@@ -184,7 +207,11 @@ RingOrder::RingOrder(const OrderGraph& graph, const View& view, double near)
 SeenPolygon RingOrder::seen_through(std::int32_t tet, std::int32_t edge) const {
     const OrderGraph::Passage passage = graph_.passage(tet, edge);
     const SeenPolygon exit = finder_.polygon(passage.exit);
-    return passage.shared ? exit : overlap_of(exit, finder_.polygon(passage.entry));
+    if (passage.shared) return exit;
+    if (!passage.behind) return overlap_of(exit, finder_.polygon(passage.entry));
+    const ClippedTriangle entry =
+        part_behind(passage.exit, passage.entry, tie_distance(graph_.mesh(), graph_.eye()));
+    return overlap_of(exit, finder_.polygon(std::span(entry.corners).first(entry.count)));
 }
 
 void RingOrder::add_ring(std::span<const std::int32_t> tets, const OrderCycles& cycles) {
@@ -254,8 +281,8 @@ void RingOrder::solve(const Problem& problem) {
         return;
     }
     draw_around(problem, solution);
-    if (wrong.count() == 1) {
-        draw_pixel(problem, wrong);
+    if (wrong.count() == 1 || (graph_.orders_overlaps() && is_dense(problem, wrong))) {
+        draw_pixels(problem, wrong);
         return;
     }
     const auto solve_in = [&](const PixelArea& pixels) {
@@ -307,10 +334,54 @@ void RingOrder::draw_around(const Problem& problem, const Solution& solution) {
         draw(problem, solution.order, pixels);
 }
 
-void RingOrder::draw_pixel(const Problem& problem, const PixelArea& pixel) {
+bool RingOrder::is_dense(const Problem& problem, const PixelArea& pixels) {
+    std::int64_t looks = 0;
+    for (const Member& member : problem.tets) looks += common_pixels(member.pixels, pixels).count();
+    return looks <= looks_a_constraint * std::ssize(problem.constraints);
+}
+
+void RingOrder::draw_pixels(const Problem& problem, const PixelArea& pixels) {
+    for (std::int32_t row = pixels.first_row; row <= pixels.last_row; ++row) {
+        for (std::int32_t column = pixels.first_column; column <= pixels.last_column; ++column) {
+            const PixelArea pixel{column, column, row, row};
+            if (graph_.orders_overlaps()) {
+                draw_by_entry(problem, pixel);
+            } else {
+                draw_pixel(problem, pixel);
+            }
+        }
+    }
+}
+
+View::Ray RingOrder::ray_of(const PixelArea& pixel) const {
     const glm::dvec3 moved = ray_perturbation(finder_.view());
-    const View::Ray ray =
-        finder_.view().ray(pixel.first_column + moved.x, pixel.first_row - moved.y);
+    return finder_.view().ray(pixel.first_column + moved.x, pixel.first_row - moved.y);
+}
+
+void RingOrder::draw_by_entry(const Problem& problem, const PixelArea& pixel) {
+    struct Met {
+        std::int32_t index;
+        double entry;
+    };
+    const View::Ray ray = ray_of(pixel);
+    const TetMesh& mesh = graph_.mesh();
+    const auto tet_of = [&](const Met& met) { return problem.tets[met.index].tet; };
+    std::vector<Met> met;
+    for (std::size_t i = 0; i < problem.tets.size(); ++i) {
+        const Member& member = problem.tets[i];
+        if (common_pixels(member.pixels, pixel).empty()) continue;
+        const RaySpan span = span_through(ray, mesh.points(), mesh.tets()[member.tet]);
+        if (span.out > span.in) met.push_back({static_cast<std::int32_t>(i), span.in});
+    }
+    sort_by_entry(std::span(met), entry_rule(mesh, graph_.eye(), ray.direction), &Met::entry,
+                  tet_of);
+    std::vector<std::int32_t> order;
+    for (const Met& each : std::views::reverse(met)) order.push_back(each.index);
+    draw(problem, order, pixel);
+}
+
+void RingOrder::draw_pixel(const Problem& problem, const PixelArea& pixel) {
+    const View::Ray ray = ray_of(pixel);
     const TetMesh& mesh = graph_.mesh();
     std::vector<RaySpan> spans(problem.tets.size());
     std::vector<std::int32_t> order(problem.tets.size());

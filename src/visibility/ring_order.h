@@ -44,8 +44,9 @@ struct DrawOrder {
 
 // A convex polygon in pixels, rows downwards; the centre of pixel (i, j) is at (i, j).
 struct SeenPolygon {
-    // The overlap of two triangles, each cut by the near plane to at most 4 corners.
-    static constexpr std::size_t most_corners = 8;
+    // The overlap of two triangles, cut by the near plane to at most 4 corners; one of them may
+    // first have been cut by a plane, to at most 5.
+    static constexpr std::size_t most_corners = 9;
 
     std::size_t count = 0;
     std::array<glm::dvec2, most_corners> corners;
@@ -60,7 +61,8 @@ class PixelFinder {
   public:
     PixelFinder(const View& view, double near) : window_(view), near_(near) {}
 
-    SeenPolygon polygon(const Triangle& triangle) const;
+    // Projects the corners of a convex polygon in a plane.
+    SeenPolygon polygon(std::span<const glm::dvec3> corners) const;
     // Returns the pixels of the picture whose rays may meet the hull of some points.
     PixelArea pixels_of(std::span<const glm::dvec3> points) const;
     const View& view() const { return window_.view(); }
@@ -80,7 +82,8 @@ class PixelFinder {
 //   draw the tets in this order in all pixels outside W
 //   in W do the same with those tets and constraints that are seen in W;
 //     if W is more than half of the pixels: in each half of W
-//     if W is one pixel: draw the tets by where its ray meets them
+//     if W is one pixel: draw the tets by where its ray meets them; if the graph orders tets that
+//     overlap, by where its ray enters them (EntryRule)
 // Kraus and Ertl (Cell-projection of cyclic meshes, 2001) render such tets in layers.
 class RingOrder {
   public:
@@ -95,7 +98,8 @@ class RingOrder {
     void add_ring(std::span<const std::int32_t> tets, const OrderCycles& cycles);
 
     DrawOrder<std::int32_t> order() const { return {tets_, limited_}; }
-    // Returns the number of pairs of tets that overlap on a pixel's ray: no order is right there.
+    // Returns the number of pairs of tets that overlap on the ray of a pixel that was ordered
+    // alone. Unless the graph orders overlaps, no order is right there.
     std::int64_t overlapping_pairs() const;
 
   private:
@@ -124,7 +128,11 @@ class RingOrder {
     void solve(const Problem& problem);
     void draw(const Problem& problem, std::span<const std::int32_t> order, const PixelArea& pixels);
     void draw_around(const Problem& problem, const Solution& solution);
+    View::Ray ray_of(const PixelArea& pixel) const;
+    static bool is_dense(const Problem& problem, const PixelArea& pixels);
+    void draw_pixels(const Problem& problem, const PixelArea& pixels);
     void draw_pixel(const Problem& problem, const PixelArea& pixel);
+    void draw_by_entry(const Problem& problem, const PixelArea& pixel);
 
     const OrderGraph& graph_;
     PixelFinder finder_;

@@ -50,7 +50,8 @@ const char* name_of(OrderMethod method) {
     return word_of(method, words);
 }
 
-VisibilityOrder::VisibilityOrder(const TetMesh& mesh, OrderMethod method)
+VisibilityOrder::VisibilityOrder(const TetMesh& mesh, OrderMethod method,
+                                 std::span<const TetPair> overlaps)
     : mesh_(mesh), method_(method), order_(mesh.tets().size()) {
     std::iota(order_.begin(), order_.end(), 0);
     if (method == OrderMethod::centroid) distances_.resize(order_.size());
@@ -58,7 +59,7 @@ VisibilityOrder::VisibilityOrder(const TetMesh& mesh, OrderMethod method)
     const Stage building("order graph");
     const Convexity shape = convexity(mesh);
     graph_ = std::make_unique<OrderGraph>(
-        mesh, method == OrderMethod::exact && shape != Convexity::exact);
+        mesh, method == OrderMethod::exact && shape != Convexity::exact, overlaps);
     if (method == OrderMethod::mpvo && shape == Convexity::none)
         farthest_first_ = std::make_unique<FarthestFirst>(mesh);
 }
@@ -113,7 +114,7 @@ void VisibilityOrder::solve_rings(const View& view) {
         }
         first = end;
     }
-    report_.broken = rings_->overlapping_pairs();
+    report_.broken = rings_->overlapping_pairs();  // none are found if overlaps are ordered
     report_.broken_area = 0;
 }
 

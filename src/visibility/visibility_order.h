@@ -30,7 +30,7 @@ struct OrderReport {
     std::int64_t cycles = 0;       // number of sets of tets that hide one another in a ring
     std::int64_t cyclic_tets = 0;  // number of tets in these
     // Number of pairs of tets in the wrong order; for mpvo of a nonconvex mesh, only of pairs that
-    // share a face. After sort_pixels(), number of pairs that overlap.
+    // share a face. After sort_pixels(), number of pairs that overlap and are not ordered.
     std::int64_t broken = 0;
     // Seen area of the pairs of `broken` for `exact`: bounds the area with a wrong order.
     double broken_area = 0;
@@ -41,14 +41,18 @@ struct OrderReport {
 // The order depends on mesh, method and eye alone. The mesh must outlive this object.
 class VisibilityOrder {
   public:
-    VisibilityOrder(const TetMesh& mesh, OrderMethod method);
+    // `overlaps`: the mesh's overlapping_pairs(), which `exact` then orders by entry (EntryRule) in
+    // all pixels.
+    VisibilityOrder(const TetMesh& mesh, OrderMethod method,
+                    std::span<const TetPair> overlaps = {});
 
     // Returns all tets back to front, for an eye anywhere, until the next call. Calls `meanwhile`
     // once, beside work on one core. `break_rings`: orders tets of rings, too, as well as possible.
     std::span<const std::int32_t> sort(
         const Eye& eye, const std::function<void()>& meanwhile = [] {}, bool break_rings = true);
     // Returns the tets for a view. Rings' tets are listed several times (RingOrder), to be right in
-    // all pixels on whose ray no tets overlap. Holds for `exact`, and for `mpvo` of a convex mesh.
+    // all pixels; if overlaps are not ordered, in those on whose ray no tets overlap. Holds for
+    // `exact`, and for `mpvo` of a convex mesh.
     DrawOrder<std::int32_t> sort_pixels(
         const View& view, const std::function<void()>& meanwhile = [] {});
     std::span<const std::int32_t> order() const { return order_; }  // result of the last sort()

@@ -14,6 +14,7 @@
 #include "support/carved_mesh.h"
 #include "support/clips.h"
 #include "support/needle_soup.h"
+#include "support/overlapping_tets.h"
 #include "support/point_copies.h"
 #include "support/scene_fixture.h"
 #include "support/split_box.h"
@@ -304,7 +305,9 @@ TEST(TracerAndTwin, AgreeOnMeshesOfSeveralOrOverlappingParts) {
         overlapping.tets.push_back({t[0] + first, t[1] + first, t[2] + first, t[3] + first});
     const MeshData needles = test::needle_soup(60, 3, .7, .02);
     hollow.point_scalars[0].values[70] = NAN;
-    for (const MeshData& data : {hollow, overlapping, needles}) {
+    std::vector<MeshData> all{hollow, overlapping, needles};
+    for (const test::OverlapCase& each : test::overlap_cases()) all.push_back(each.mesh);
+    for (const MeshData& data : all) {
         const SceneMesh mesh = mesh_of(data);
         const auto& [low, high] = mesh.mesh.bounds();
         Grid box = unit_box;
