@@ -100,11 +100,23 @@ CellScalar cell_scalar(ivec3 voxel, vec3 place, vec3 change, out bool transparen
     return scalar;
 }
 #else
-// Returns the scalars that a cell shows: those between its corners' least and largest. These two
-// themselves are shown by a constant cell alone; in others a field meets them in a set of no
-// volume. So they are left out, by a few roundings of a scalar in 0 .. 1: else a rounding would put
-// a ray that only touches a step of the transfer function on its other side (docs/numerics.md,
-// section 9.3).
+// Returns the corners that a part of a ray sees. If it stays in a face on an axis, as it does beyond
+// the samples of `cell` axes, those of the other face are replaced by this one's.
+Corners seen_corners(Corners corners, vec3 place, vec3 change) {
+    bvec3 stays = equal(change, vec3(0.0));
+    if (stays.x && place.x <= 0.0) corners.upper = corners.lower;
+    if (stays.x && place.x >= 1.0) corners.lower = corners.upper;
+    if (stays.y && place.y <= 0.0) corners = Corners(corners.lower.xxzz, corners.upper.xxzz);
+    if (stays.y && place.y >= 1.0) corners = Corners(corners.lower.yyww, corners.upper.yyww);
+    if (stays.z && place.z <= 0.0) corners = Corners(corners.lower.xyxy, corners.upper.xyxy);
+    if (stays.z && place.z >= 1.0) corners = Corners(corners.lower.zwzw, corners.upper.zwzw);
+    return corners;
+}
+
+// Returns the scalars between the least and the largest of the corners. These two themselves are
+// shown by constant fields alone; others meet them in a set of no volume. So they are left out, by a
+// few roundings of a scalar in 0 .. 1: else a rounding would put a ray that only touches a step of
+// the transfer function on its other side (docs/numerics.md, section 9.3).
 vec2 limits_of(Corners corners) {
     vec4 least = min(corners.lower, corners.upper), largest = max(corners.lower, corners.upper);
     vec2 codes = vec2(min(min(least.x, least.y), min(least.z, least.w)),
@@ -122,8 +134,9 @@ CellScalar cell_scalar(ivec3 cell, vec3 place, vec3 change, out bool transparent
     ivec3 lowest = clamp(cell, ivec3(0), max(last - 1, 0));
     vec3 share = clamp(place + vec3(cell - lowest), vec3(0.0), min(last_sample, vec3(1.0)));
     Corners corners = fetch_corners(lowest);
+    vec3 moved = change * vec3(equal(cell, lowest));
     CellScalar scalar;
-    scalar.cubic = cubic_along(corners, code_normalisation.x, share, change * vec3(equal(cell, lowest)));
+    scalar.cubic = cubic_along(corners, code_normalisation.x, share, moved);
 #ifdef NAN_TRANSPARENT
     transparent = has_nan(corners);
     if (transparent) scalar.cubic = vec4(0.0);
@@ -132,7 +145,7 @@ CellScalar cell_scalar(ivec3 cell, vec3 place, vec3 change, out bool transparent
 #endif
     scalar.cubic *= code_normalisation.y;
 #ifdef STEPS
-    scalar.limits = transparent ? vec2(0.0) : limits_of(corners);
+    scalar.limits = transparent ? vec2(0.0) : limits_of(seen_corners(corners, share, moved));
 #endif
     return scalar;
 }

@@ -21,10 +21,14 @@ CellRay cell_ray(Ray ray) {
     return CellRay(slope, 1.0 / slope, greaterThan(slope, vec3(0.0)));
 }
 
+// Returns the cell of the box that is the nearest.
+ivec3 nearest_cell(ivec3 cell) {
+    return clamp(cell, ivec3(floor(box_min)), ivec3(ceil(box_max)) - 1);
+}
+
 // Returns the place at a depth. A ray on a plane between two cells is in the one that it enters.
 CellPlace place_at(Ray ray, CellRay cells, REAL depth) {
     REAL3 there = ray.origin + depth * ray.direction;
-    ivec3 cell = ivec3(mix(ceil(there) - REAL(1.0), floor(there), cells.forward));
-    cell = clamp(cell, ivec3(floor(box_min)), ivec3(ceil(box_max)) - 1);
+    ivec3 cell = nearest_cell(ivec3(mix(ceil(there) - REAL(1.0), floor(there), cells.forward)));
     return CellPlace(cell, clamp(vec3(there - REAL3(cell)), 0.0, 1.0));
 }

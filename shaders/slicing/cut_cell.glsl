@@ -74,7 +74,7 @@ struct CutPlace {
 CutPlace first_place(CellScalar scalar, vec2 turns) {
     float first = limited(scalar, scalar.cubic.x);
     int interval = find_interval(clamp(first, 0.0, 1.0));
-    bool falling = cubic_at(scalar.cubic, turns.x) < first;
+    bool falling = scalar_at(scalar, turns.x) < first;
     if (falling && interval > 0 && interval_place(interval).x == first) --interval;
     return CutPlace(0.0, first, interval);
 }

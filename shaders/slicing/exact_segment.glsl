@@ -35,8 +35,10 @@ void integrate_cells(Ray ray, REAL2 depths, inout RaySum sum) {
         vec3 to_faces = (vec3(cells.forward) - at.place) * cells.inverse;
         float way = min(min(to_faces.x, to_faces.y), min(to_faces.z, float(left)));
         vec3 change = way * cells.slope;
+        // Roundings may leave a rest of the way behind the box's last cell.
+        ivec3 cell = nearest_cell(at.cell);
         bool transparent;
-        CellScalar scalar = cell_scalar(at.cell, at.place, change, transparent);
+        CellScalar scalar = cell_scalar(cell, at.place + vec3(at.cell - cell), change, transparent);
         float world_length = transparent ? 0.0 : way * float(ray.length_per_depth);
 #ifdef LIGHTS
         add_part(scalar, world_length, LitStep(at.cell, at.place, change, to_eye), sum);

@@ -451,7 +451,8 @@ LAMINA_INLINE SumOf<lit> integrate_colors(const CpuTransfer& transfer, const Seg
     const EntryOf<lit>& entry = entries.first;
     SumOf<lit> sum;
     sum.depth = entry.extinction * segment.first.length;
-    const Float inverse = zero_unless(entry.extinction > 0, 1.0f / entry.extinction);
+    // The inverse of a smaller extinction is infinite: nothing of such depths can be seen.
+    const Float inverse = 1.0f / max(entry.extinction, std::numeric_limits<float>::min());
     for (int channel = 0; channel < 3; ++channel)
         sum.color[channel] = entry.emission[channel] * inverse;
     if constexpr (lit) {

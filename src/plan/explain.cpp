@@ -25,6 +25,18 @@ std::string line(const char* what, const std::string& value) {
     return fmt::format("  {:<14} {}\n", what, printable(value));
 }
 
+// Returns the error of a plan as text. If only rays along surfaces may err by more, it tells so.
+std::string error_text(const Plan& plan) {
+    if (plan.method != Method::slice || !std::isinf(plan.slice.surface_error))
+        return text_of(plan.error());
+    SlicePlan others = plan.slice;
+    others.surface_error = 0;
+    return fmt::format(
+        "unknown of rays that run along a surface at which the transfer function jumps or is very "
+        "steep; of all others {}",
+        text_of(others.error()));
+}
+
 std::string with_reason(const char* name, const std::string& reason) {
     return reason.empty() ? name : fmt::format("{}: {}", name, reason);
 }
@@ -208,7 +220,7 @@ std::string explain(const Plan& plan, const Facts& facts, const Capabilities& ca
                     slice.table.request.colored ? ", coloured" : "", slice.table.error));
         }
     }
-    if (plan.method != Method::trace) row("error", text_of(plan.error()));
+    if (plan.method != Method::trace) row("error", error_text(plan));
     return text + work_and_left_out(plan);
 }
 

@@ -232,6 +232,10 @@ struct SliceRemarks {
     // Largest error of exact segments. A picture is linear in its colours, so the error grows in
     // proportion to the brightest colour above 1.
     double segment_error = exact_segment_error;
+    // Bound on what roundings of the scalar may change of a ray of exact segments that runs along a
+    // surface at which the transfer function jumps or is very steep. 0: less than segment_error,
+    // which counts it. Infinite: more than max_error leaves, so that no error is stated.
+    double surface_error = 0;
 
     friend bool operator==(const SliceRemarks&, const SliceRemarks&) = default;
 };
@@ -244,8 +248,8 @@ struct SlicePlan : SlicedPicture, ViewPlan, SliceRemarks {
         if (integrates_cells()) return segment_error + light_error + curve_error;
         return slab_trial ? slab_trial->error : filter_error + table.error;
     }
-    // Returns the picture's error: found_error() plus rounding_bound. It is unknown if the scene
-    // gives the number of slabs, because then nothing is measured.
+    // Returns the picture's error: found_error() plus rounding_bound and surface_error. It is
+    // unknown if the scene gives the number of slabs, because then nothing is measured.
     ErrorFigure error() const;
 
     friend bool operator==(const SlicePlan&, const SlicePlan&) = default;

@@ -37,11 +37,6 @@ constexpr double float_error = 0.05;
 // have double precision and are given relative to a pixel nearby.
 constexpr double placing_share = 1e-6;
 
-// Rounding of scalars, as a share of the window: scalars and the transfer function's points are
-// float32 numbers of the window, rounded a few times by at most half of 2^-23 of it. For pieces of
-// tets scalars are normalised to the piece, and this does not apply.
-constexpr double scalar_rounding = 0x1p-22;
-
 // Error, in 1/255, above which no error is stated, because a few rays tell little of pictures that
 // are so far off.
 constexpr double most_figure = 8;
@@ -372,10 +367,22 @@ struct ProjectPlanner {
         const MeshFacts::TrialError& found = plan.trial_error;
         // A picture is linear in its colours.
         const double brightest = std::max(largest_drawn_color(scene, facts.max_color), 1.0);
-        const double value = brightest * float_error + sampling_margin * found.segments +
-                             found.places + plan.light_error;
+        const double value = brightest * (float_error + hidden_by_near_plane()) +
+                             sampling_margin * found.segments + found.places + plan.light_error;
         if (value > most_figure) return {};
         return {ErrorKind::sampled, value, found.rays};
+    }
+
+    // Returns a bound, in 1/255, on what the near plane hides of what has colours up to 1: rays
+    // begin there and not at the eye, which trial rays do not show. A ray without a piece of depth
+    // x at its front is off by at most the opacity of x.
+    double hidden_by_near_plane() const {
+        if (facts.box_in_front) return 0;
+        const View view(*scene.camera, scene.width, scene.height);
+        const double longest = facts.orthographic ? 1
+                                                  : std::hypot(1, .5 * view.width * view.pixel,
+                                                               .5 * view.height * view.pixel);
+        return -255 * std::expm1(-facts.max_extinction * near_share * facts.diagonal * longest);
     }
 
     void choose_integral() {

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "compositing/tree_shape.h"
@@ -41,6 +44,64 @@ constexpr std::uint64_t max_filtered_bytes = std::uint64_t{1} << 30;  // float c
 constexpr double curve_share = 0.25;  // share of max_error that curves may cost
 
 constexpr std::uint64_t gradient_bytes = 8;  // bytes a sample (slicing/gradient_map.h)
+
+// The optics at a scalar. At a step there are two points of one scalar.
+struct OpticsPoint {
+    double value;
+    OpticalProperties optics;
+};
+
+// Returns the ends of the transfer function's linear pieces in a range, in order.
+std::vector<OpticsPoint> ends_of_pieces(const TransferFunction& transfer_function,
+                                        const ValueRange& range) {
+    std::vector<OpticsPoint> ends;
+    for_each_linear_piece(transfer_function.knots(), range.lo, range.hi,
+                          [&](const LinearPiece& piece) {
+                              ends.push_back({piece.from, piece.at_from});
+                              ends.push_back({piece.to, piece.at_to});
+                          });
+    return ends;
+}
+
+bool has_steps(const TransferFunction& transfer_function) {
+    return std::ranges::adjacent_find(transfer_function.knots(), {}, &TransferKnot::value) !=
+           transfer_function.knots().end();
+}
+
+// Largest changes between two scalars, of what a ray of a given length shows.
+struct OpticsChange {
+    double extinction = 0;  // per world unit
+    double color = 0;       // times the share of light that has this colour
+
+    // Returns `share` of the change from a to b, for rays of this length.
+    static OpticsChange between(const OpticalProperties& a, const OpticalProperties& b,
+                                double length, double share) {
+        const glm::dvec3 apart = glm::abs(b.color - a.color);
+        const double seen = std::min(1.0, std::max(a.extinction, b.extinction) * length);
+        return {share * std::abs(b.extinction - a.extinction),
+                share * seen * std::max({apart.r, apart.g, apart.b})};
+    }
+    void enlarge(const OpticsChange& other) {
+        extinction = std::max(extinction, other.extinction);
+        color = std::max(color, other.color);
+    }
+};
+
+// Returns bounds on the changes between scalars that are at most `apart` apart: within pieces that
+// are wider, and from end to end of narrower ones.
+OpticsChange largest_change(const std::vector<OpticsPoint>& ends, double apart, double length) {
+    OpticsChange slopes, jumps;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        const double width = ends[i + 1].value - ends[i].value;
+        if (width > apart) {
+            slopes.enlarge(
+                OpticsChange::between(ends[i].optics, ends[i + 1].optics, length, apart / width));
+        }
+        for (std::size_t j = i + 1; j < ends.size() && ends[j].value - ends[i].value <= apart; ++j)
+            jumps.enlarge(OpticsChange::between(ends[i].optics, ends[j].optics, length, 1));
+    }
+    return {slopes.extinction + jumps.extinction, slopes.color + jumps.color};
+}
 
 // Decides how a scene is sliced. make() has the order of its choices, each of which depends on
 // those before:
@@ -88,7 +149,10 @@ struct SlicePlanner {
         slice.float_texture =
             slice.sampling == VolumeSampling::filtered ||
             (slice.sampling != VolumeSampling::none && facts.type == SampleType::float32);
-        if (slice.integrates_cells()) slice.curve_error = choose_curves();
+        if (slice.integrates_cells()) {
+            slice.curve_error = choose_curves();
+            slice.surface_error = surface_error(slice.found_error());
+        }
 
         slice.single_color = choose_single_color();
         if (classification == Classification::preintegrated) choose_integral(slice);
@@ -194,6 +258,32 @@ struct SlicePlanner {
                         "at smooth points: off by at most {:.2g} / 255",
                         facts.curves, facts.pieces, error));
         return taken ? error : 0;
+    }
+
+    // Returns SliceRemarks::surface_error (docs/numerics.md, section 9.3). A field that is constant
+    // in each voxel has no rounding. `others`: the error of all other rays, in 1/255.
+    double surface_error(double others) const {
+        if (facts.grid.lookup == VolumeLookup::nearest) return 0;
+        const TransferFunction& transfer_function = *scene.transfer_function;
+        const ValueRange window = exact_range(transfer_function, facts.range, facts.type);
+        const double rounding = scalar_rounding * (window.hi - window.lo);
+        ValueRange shown = facts.range;
+        // If there are steps, scalars stay away from the ends of their cell's range by 2^-23 of the
+        // window, except those of constant cells, which are exact.
+        if (has_steps(transfer_function) && shown.hi - shown.lo > 2 * rounding) {
+            shown.lo += rounding / 2;
+            shown.hi -= rounding / 2;
+        }
+        const double length =
+            std::min(box_diagonal(facts.grid),
+                     (facts.far_depth - facts.near_depth) * facts.max_length_per_depth);
+        const OpticsChange change =
+            largest_change(ends_of_pieces(transfer_function, shown), rounding, length);
+        const double brightest = std::max(max_color, 1.0);
+        const double share = std::min(1.0, -std::expm1(-change.extinction * length) + change.color);
+        const double error = 255 * brightest * share;
+        if (error <= exact_segment_error * brightest) return 0;
+        return others + error <= scene.max_error ? error : std::numeric_limits<double>::infinity();
     }
 
     bool choose_single_color() {

@@ -148,7 +148,7 @@ class CellIntegrator {
         CubicLanes cubic = cubic_along(corners, base, place, change);
         for (Float& c : cubic.c) c *= brick.scale;
         if (slabs_.transfer->steps) {
-            const RangeLanes limits = limits_of(corners, base, brick.scale);
+            const RangeLanes limits = limits_of(corners, base, brick.scale, place, change);
             store(limits.lo, segments_.limits[0] + i);
             store(limits.hi, segments_.limits[1] + i);
         }

@@ -135,7 +135,7 @@ class CutSegments {
         const Segment& segment = lanes.segment;
         const Turns turns = turns_of(segment.scalar);
         const Float start = lanes.limits.clamped(segment.scalar.c[0]);
-        const FloatMask falling = segment.scalar.at(turns.first) < start;
+        const FloatMask falling = lanes.limits.clamped(segment.scalar.at(turns.first)) < start;
         const Int interval = find_interval<kind>(transfer, clamp01(start));
         const FloatMask on_knot = look_up<kind>(transfer.left_end, interval) == start;
         const FloatMask below = falling & on_knot & (interval > 0);

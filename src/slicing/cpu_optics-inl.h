@@ -21,6 +21,8 @@
 #define LAMINA_SLICING_CPU_OPTICS_INL_H_
 #endif
 
+#include <limits>
+
 #include "executors/cpu_transfer-inl.h"
 #include "slicing/cpu_fetch-inl.h"
 #include "tiles/segment_optics-inl.h"
@@ -67,19 +69,30 @@ struct RangeLanes {
     LAMINA_INLINE Float clamped(Float scalar) const { return min(max(scalar, lo), hi); }
 };
 
-// Returns the scalars that a cell shows: those between its corners' least and largest. These two
-// themselves are shown by a constant cell alone; in others a field meets them in a set of no
-// volume. So they are left out, by a few roundings of a scalar in 0 .. 1: else a rounding would put
-// a ray that only touches a step of the transfer function on its other side (docs/numerics.md,
-// section 9.3).
-LAMINA_INLINE RangeLanes limits_of(const Corners& corners, Float base, float scale) {
-    Float least = corners.lower[0], largest = least;
-    const auto include = [&](Float v) LAMINA_LAMBDA {
-        least = min(least, v);
-        largest = max(largest, v);
+// Returns the scalars that a segment at place + t * change shows: those between its corners' least
+// and largest. On an axis on which it stays in a face, as it does beyond the samples of `cell`
+// axes, the corners of the other face do not count. The least and the largest themselves are shown
+// by constant fields alone; others meet them in a set of no volume. So they are left out, by a few
+// roundings of a scalar in 0 .. 1: else a rounding would put a ray that only touches a step of the
+// transfer function on its other side (docs/numerics.md, section 9.3).
+LAMINA_INLINE RangeLanes limits_of(const Corners& corners, Float base, float scale,
+                                   const Float (&place)[3], const Float (&change)[3]) {
+    FloatMask left_out[3][2];  // by axis: the lower corners, the upper ones
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const FloatMask stays = change[axis] == 0;
+        left_out[axis][0] = stays & (place[axis] >= 1);
+        left_out[axis][1] = stays & (place[axis] <= 0);
+    }
+    Float least(std::numeric_limits<float>::max()), largest = -least;
+    const auto include = [&](Float v, FloatMask unseen) LAMINA_LAMBDA {
+        least = select(unseen, least, min(least, v));
+        largest = select(unseen, largest, max(largest, v));
     };
-    for (int i = 1; i < 4; ++i) include(corners.lower[i]);
-    for (int i = 0; i < 4; ++i) include(corners.upper[i]);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const FloatMask unseen = left_out[1][i % 2] | left_out[2][i / 2];
+        include(corners.lower[i], unseen | left_out[0][0]);
+        include(corners.upper[i], unseen | left_out[0][1]);
+    }
     const Float lo = (least - base) * scale, hi = (largest - base) * scale;
     const Float margin = min(0.5f * (hi - lo), 0x1p-23f);
     return {lo + margin, hi - margin};

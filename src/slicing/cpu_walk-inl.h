@@ -23,6 +23,8 @@
 #endif
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "simd/members-inl.h"
 #include "slicing/cpu_fetch-inl.h"
@@ -90,6 +92,9 @@ class CellWalk {
             inverse_[i] = in_steps(1.0 / direction_[i]);
             forward_[i] = slope_[i] > 0;
             last_[i] = static_cast<std::int32_t>(view.brick.last_sample[i]);
+            before_[i] = view.box.min[axis] < 0 ? -1 : std::numeric_limits<std::int32_t>::min();
+            behind_[i] =
+                view.box.max[axis] > last_[i] ? last_[i] : std::numeric_limits<std::int32_t>::max();
             first_[i] = static_cast<std::int32_t>(view.first[axis]);
             cell_[i] = first_cell(axis);
         }
@@ -247,16 +252,20 @@ class CellWalk {
         const std::size_t at = segments.count;
         Int samples[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            // Beyond the first and the last sample the border value repeats.
+            // Beyond the first and the last sample the border value repeats, if the box reaches so
+            // far: a ray is in a face exactly, as limits_of() relies on. Else roundings may leave
+            // a rest of the way there, which is in the last cell.
             const Int cell = cells[axis];
             const Int sample = samples[axis] = clamp(cell, 0, std::max(last_[axis] - 1, 0));
-            const FloatMask between = (cell > -1) & (cell < last_[axis]);
+            const FloatMask between = (cell > before_[axis]) & (cell < behind_[axis]);
             const Float largest(last_[axis] > 0 ? 1.0f : 0.0f);
             // A voxel's sample is one of the corners: the place, 0 or 1, says which.
             const bool voxels = view_->brick.nearest;
             const Float share =
                 voxels ? to_float(cell - sample) : place_in_cell(axis, sample - cell_[axis]);
-            store_members(clamp(share, 0, largest), shown, segments.place[axis] + at);
+            const Float beyond = zero_unless(cell > -1, largest);
+            store_members(select(between, clamp(share, 0, largest), beyond), shown,
+                          segments.place[axis] + at);
             const FloatMask moves = without(between & FloatMask(!voxels), leaps.lanes);
             store_members(zero_unless(moves, thickness * slope_[axis]), shown,
                           segments.change[axis] + at);
@@ -321,6 +330,8 @@ class CellWalk {
     const CpuBrickView* view_ = nullptr;
     const PacketRays* rays_ = nullptr;
     std::int32_t last_[3], first_[3];  // the brick's last samples, and its place in the volume
+    // Cells before and behind those between samples, if the box reaches so far; else beyond all.
+    std::int32_t before_[3], behind_[3];
     Float64 depth_, end_;
     Float64 direction_[3];
     Float slope_[3];  // direction_ in float

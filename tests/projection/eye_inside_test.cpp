@@ -120,6 +120,30 @@ TEST_P(EyeInside, PicturesFromACornerOfTetsMatchTheTracer) {
     }
 }
 
+// Tets begin at the near plane, in front of the eye by 1e-6 of the diagonal. That shows in dense
+// media whose colours change within a few millionths of the diagonal, as they do in needles.
+TEST_P(EyeInside, ErrorsCountWhatTheNearPlaneHides) {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> value(0, 1);
+    double beyond = 0;
+    for (int number = 0; number < 12; ++number) {
+        MeshData data = test::kuhn_box({2, 2, 2}, [&](const glm::dvec3&) { return value(random); });
+        for (glm::dvec3& point : data.points) point *= glm::dvec3(1, 1e-3, 1e-3);
+        const SceneMesh mesh = scene_mesh(std::move(data));
+        Scene scene = random_scene(mesh, random);
+        scene.camera->projection = Projection::perspective;
+        scene.transfer_function = TransferFunction::linear(
+            {knot(0, {1, .2, 0}, 300), knot(.5, {0, 1, 0}, 2000), knot(1, {.1, 0, 1}, 3000)});
+        const Plan plan = plan_of(mesh, scene, capabilities());
+        ASSERT_EQ(plan.project.error.kind, ErrorKind::sampled) << number;
+        const double error = errors(project(mesh, scene, capabilities()), trace(mesh, scene)).worst;
+        EXPECT_LE(error, plan.project.error.value) << number;
+        const MeshFacts::TrialError& found = plan.project.trial_error;
+        beyond = std::max(beyond, error - 1.25 * found.segments - found.places);
+    }
+    EXPECT_GT(beyond, .05);  // float32's roundings: what else is counted would not be enough
+}
+
 // Interpolation between three equal scalars may give another number, which may be on the other side
 // of the step.
 TEST_P(EyeInside, TetsOfOneScalarAtAStepShowOneOfItsSides) {

@@ -86,6 +86,33 @@ TEST_P(ExactTest, StepsAtTheEndsOfTheSamplesMeetTheTracer) {
     }
 }
 
+// In the outer half voxels of `cell` axes the field is constant wherever a ray sees one sample, or
+// two equal ones. If that is the value of a step, they show the step's later side, whatever the
+// other samples of the cell are.
+TEST_P(ExactTest, StepsAtTheValuesOfTheBorderMeetTheTracer) {
+    const auto show = [&](auto first) {
+        using Sample = decltype(first);
+        std::uint32_t state = 4711;
+        const auto sample = [&](double, double, double) {
+            state = state * 1664525u + 1013904223u;
+            return double(first) * (1 + (state >> 30));
+        };
+        const Volume volume =
+            test::volume_of<Sample>(test::grid_of({5, 2, 3}, Centering::cell), sample);
+        for (const int times : {2, 3}) {
+            const double step = static_cast<Sample>(double(first) * times);
+            Scene scene = exact_scene(TransferFunction::linear({knot(step, {.9, .2, .1}, .01),
+                                                                knot(step, {.1, .3, .8}, .2)}),
+                                      Projection::perspective);
+            look_from(volume, {.4, -.7, .9}, 1.2, scene);
+            EXPECT_LE(linf(draw(volume, scene), trace(volume, scene, 1e-8)), promised) << step;
+        }
+    };
+    show(std::uint8_t{60});
+    show(std::int16_t{-711});
+    show(.1f);
+}
+
 // With an optical depth of 4e6, the cell is opaque within a hundredth of its length from one side,
 // and from the other within less than float32 can resolve.
 TEST_P(ExactTest, DeepCellsHaveTheColorOfTheirFront) {

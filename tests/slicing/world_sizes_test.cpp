@@ -97,5 +97,25 @@ TEST(CpuWorldSizes, EverySizeMatchesTheTracer) {
     }
 }
 
+// Extinctions that are subnormal in float32, between visible ones and alone, show nothing. Their
+// inverse is infinite: no number may come of it.
+TEST(CpuWorldSizes, SubnormalExtinctionsShowNothing) {
+    for (const double visible : {0., 3.}) {
+        World world =
+            world_of(Projection::perspective, Place::outside, Classification::preintegrated);
+        const auto drawn = [&](double extinction) {
+            world.scene.transfer_function = TransferFunction::linear(
+                {knot(.2, {.9, .2, .1}, extinction), knot(.3, {.3, .8, .2}, extinction),
+                 knot(.5, {.1, .2, .9}, visible), knot(.6, {.7, .1, .4}, extinction),
+                 knot(.8, {.5, .5, .1}, extinction)});
+            return render_tiles(world.volume, world.scene);
+        };
+        const Image nothing = drawn(0);
+        for (const double extinction : {1e-45, 1e-41, 9e-41, 1.1e-38})
+            // Float32 rounds by some 1e-4 / 255 if the table has entries beside the visible ones.
+            EXPECT_LE(linf(drawn(extinction), nothing), 1e-3) << extinction << " " << visible;
+    }
+}
+
 }  // namespace
 }  // namespace lamina

@@ -178,6 +178,9 @@ class Judge:
         automatic = "samples" not in settings
         claims = automatic and not any("max_error" in line for line in drawn.messages)
         self.verdict.doubted = automatic and not claims
+        figure = drawn.stats["error"]
+        if figure["kind"] == "derived":
+            self.check("bound", error, figure["value"] / 255 + 1e-7, f" by {plan['classification']} in {plan['target']}")
         rounding = self.rounding_bound(plan)
         if claims and rounding is not None and settings.get("filter") != "hardware":
             self.check("auto", error, self.max_error / 255 + rounding + 1e-7, f" by {plan['slabs']} slabs")

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// The error that exact segments claim of rays that run along a surface at which the transfer
+// function jumps: there a rounding of the scalar decides on which side of it a whole ray is.
+#include "cpu_fixture.h"
+#include "exact_fixture.h"
+
+namespace lamina {
+namespace {
+
+// A field that rises along x from `from` in ten steps of `step`. Nothing else changes.
+Volume ramp(double from, double step) {
+    return test::volume_of<float>(test::grid_of({11, 5, 21}, Centering::node),
+                                  [&](double x, double, double) { return from + step * x; });
+}
+
+// Parallel rays along z, whose middle column runs in the middle of the cells between x and x + 1.
+Scene along_surface(double x, const TransferFunction& transfer_function) {
+    Scene scene = exact_scene(transfer_function, Projection::orthographic);
+    scene.camera->eye = {x + .5, 2.2, -5};
+    scene.camera->center = {x + .5, 2.2, 5};
+    scene.camera->up = {0, 1, 0};
+    scene.camera->height = 3;
+    scene.width = 5;
+    scene.height = 3;
+    return scene;
+}
+
+// A transfer function that jumps at `value`, by this optical depth over the whole length of a ray.
+// It changes from .31 below to .93 above, so that `value` is no round number of the window.
+TransferFunction jump(double value, double depth) {
+    const double after = .01 + depth / 20;
+    return TransferFunction::linear(
+        {knot(value - .31, {.3, .2, .1}, .009), knot(value, {.3, .2, .1}, .01),
+         knot(value, {.3, .2, .1}, after), knot(value + .93, {.3, .2, .1}, 1.02 * after)});
+}
+
+ErrorFigure claimed(const Volume& volume, const Scene& scene) {
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    return make_plan(scene, facts, cpu_capabilities(), {}).error();
+}
+
+// Calls visit(volume, scene) for rays in many surfaces, each of which a rounding may miss.
+template <typename Visit>
+void for_each_surface(double depth, const Visit& visit) {
+    for (const double from : {0., .37, 1.12}) {
+        for (const double step : {.1, .07, .013}) {
+            const Volume volume = ramp(from, step);
+            for (int x = 0; x < 10; ++x)
+                visit(volume, along_surface(x, jump(from + step * (x + .5), depth)));
+        }
+    }
+}
+
+TEST(SurfaceError, IsNotClaimedIfItMayExceedMaxError) {
+    double worst = 0;
+    for_each_surface(4, [&](const Volume& volume, const Scene& scene) {
+        EXPECT_EQ(claimed(volume, scene).kind, ErrorKind::unknown);
+        worst = std::max(worst, linf(render_tiles(volume, scene), trace(volume, scene, 1e-8)));
+    });
+    EXPECT_GT(worst, 100);
+}
+
+TEST(SurfaceError, KeepsABoundBelowMaxError) {
+    double worst = 0;
+    for_each_surface(.003, [&](const Volume& volume, const Scene& scene) {
+        const ErrorFigure claim = claimed(volume, scene);
+        ASSERT_EQ(claim.kind, ErrorKind::derived);
+        EXPECT_LE(claim.value, scene.max_error);
+        const double error = linf(render_tiles(volume, scene), trace(volume, scene, 1e-8));
+        EXPECT_LE(error, claim.value);
+        worst = std::max(worst, error);
+    });
+    EXPECT_GT(worst, exact_segment_error);
+}
+
+// Where color jumps, what counts is how much of a ray's light has it.
+TEST(SurfaceError, CountsJumpsOfColor) {
+    const Volume volume = ramp(0, .1);
+    const auto claim_at = [&](double extinction) {
+        return claimed(
+            volume, along_surface(3, TransferFunction::linear({knot(.35, {1, 0, 0}, extinction),
+                                                               knot(.35, {0, 0, 1}, extinction)})));
+    };
+    EXPECT_EQ(claim_at(.2).kind, ErrorKind::unknown);
+    EXPECT_EQ(claim_at(1e-4).kind, ErrorKind::derived);
+    EXPECT_GT(claim_at(1e-4).value, 255 * 20 * 1e-4);  // the box is 20 deep
+}
+
+// Smooth transfer functions, and steps that no ray can cross, leave the usual error.
+TEST(SurfaceError, IsSmallWithoutSteps) {
+    const Volume volume = ramp(0, .1);
+    const auto claim_of = [&](const TransferFunction& transfer_function) {
+        return claimed(volume, along_surface(3, transfer_function)).value;
+    };
+    const double usual = exact_segment_error + 1. / 512;  // and where rays end early
+    EXPECT_LE(claim_of(TransferFunction::linear(
+                  {knot(.2, {1, 0, 0}, 0), knot(.5, {0, 1, 0}, .4), knot(.6, {0, 0, 1}, 0)})),
+              usual);
+    EXPECT_LE(claim_of(TransferFunction::linear({knot(0, {1, 0, 0}, 0), knot(0, {1, 0, 0}, .1),
+                                                 knot(1, {0, 1, 0}, .2), knot(1, {0, 1, 0}, 9)})),
+              usual);
+}
+
+}  // namespace
+}  // namespace lamina
