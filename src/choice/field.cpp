@@ -271,8 +271,12 @@ bool VolumeField::axial_slices() const {
 }
 
 bool VolumeField::lies_in_pieces() const {
-    const LabelSigns::Verdict verdict = label_signs(volume_).verdict;
-    return verdict == LabelSigns::Verdict::labels || verdict == LabelSigns::Verdict::scattered;
+    if (!in_pieces_) {
+        const LabelSigns::Verdict verdict = label_signs(volume_).verdict;
+        in_pieces_ =
+            verdict == LabelSigns::Verdict::labels || verdict == LabelSigns::Verdict::scattered;
+    }
+    return *in_pieces_;
 }
 
 std::optional<double> VolumeField::corner_value() const {
@@ -326,7 +330,9 @@ std::optional<BorderlessField> VolumeField::without_border() const {
                                 {volume_.grid().to_world(first_inside),
                                  glm::normalize(layers.upper ? glm::dvec3(0) - inward : inward)}});
     }
-    result.field = std::make_unique<VolumeField>(volume_, bricks_, values_, std::move(border));
+    auto inner = std::make_unique<VolumeField>(volume_, bricks_, values_, std::move(border));
+    inner->in_pieces_ = in_pieces_;
+    result.field = std::move(inner);
     return result;
 }
 

@@ -101,7 +101,8 @@ class Field {
     virtual std::vector<double> optical_depths(const Scene& scene) const = 0;
 };
 
-// A volume with its bricks and, if counted, its values, all of which must outlive this object.
+// A volume with its bricks and, if counted, its values, all of which must outlive this object,
+// which serves one thread at a time.
 class VolumeField : public Field {
   public:
     VolumeField(const Volume& volume, const MinMaxBricks& bricks,
@@ -140,8 +141,9 @@ class VolumeField : public Field {
     const MinMaxBricks& bricks_;
     SampleBox inside() const;
 
-    const ValueCounts* values_;             // null: distribution() counts the values
-    std::optional<ConstantBorder> border_;  // left out of what is measured
+    const ValueCounts* values_;              // null: distribution() counts the values
+    std::optional<ConstantBorder> border_;   // left out of what is measured
+    mutable std::optional<bool> in_pieces_;  // lies_in_pieces(), once measured
 };
 
 // A mesh with its scalar. The mesh must outlive this object, which serves one thread at a time.

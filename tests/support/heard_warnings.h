@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <string>
 #include <vector>
 
@@ -18,6 +20,11 @@ class HeardWarnings {
         std::string joined;
         for (const std::string& text : texts) joined += text;
         return joined;
+    }
+    // Expects a warning with this part, and forgets all.
+    void expect_said(const std::string& part) {
+        EXPECT_NE(all().find(part), std::string::npos) << "'" << part << "' is not in: " << all();
+        texts.clear();
     }
 
   private:

@@ -10,7 +10,7 @@
 namespace lamina {
 namespace {
 
-using GenerateFiles = testing::NrrdFiles;
+using GenerateFiles = testing::WrittenFiles;
 
 GeneratorRequest generator_request(const std::string& name, std::array<std::int64_t, 3> size,
                                    SampleType type) {

@@ -19,7 +19,7 @@ using testing::with_number;
 
 using Words = std::vector<std::string>;
 
-class HeaderWords : public testing::NrrdFiles {
+class HeaderWords : public testing::WrittenFiles {
   protected:
     VolumeContents contents_of(const std::filesystem::path& path) {
         VolumeContents contents;
@@ -27,12 +27,6 @@ class HeaderWords : public testing::NrrdFiles {
         use.contents = &contents;
         open_volume(path, {}, use);
         return contents;
-    }
-
-    void expect_said(const std::string& part) {
-        EXPECT_NE(heard_.all().find(part), std::string::npos)
-            << "'" << part << "' is not in: " << heard_.all();
-        heard_.texts.clear();
     }
 
     test::HeardWarnings heard_;
@@ -64,7 +58,7 @@ TEST_F(HeaderWords, OfNiftiScaleOnlyIfTheyAreNumbers) {
     EXPECT_EQ(testing::samples_of<std::int16_t>(read_volume(scaled(NAN, NAN))), plain);
     EXPECT_EQ(heard_.all().find("scl_"), std::string::npos);
     EXPECT_EQ(testing::samples_of<std::int16_t>(read_volume(scaled(0, 7))), plain);
-    expect_said("scl_inter: found 7, which scl_slope 0");
+    heard_.expect_said("scl_inter: found 7, which scl_slope 0");
     expect_error([&] { read_volume(scaled(INFINITY, 0)); },
                  {"a.nii: scl_slope", "found inf and 0"});
     expect_error([&] { read_volume(scaled(2, NAN)); }, {"a.nii: scl_slope", "found 2 and nan"});
@@ -162,13 +156,13 @@ TEST_F(HeaderWords, OfNrrdSayWhatSegmentsAre) {
                                 "Segment0_Layer:=0\nSegment1_ID:=s_2\nSegment1_LabelValue:=4\n"
                                 "Segment1_Name:=left kidney\nSegment1_Layer:=1\n\n12");
     read_volume(path);
-    expect_said(
+    heard_.expect_said(
         "its samples are labels, as the list of segments (1 is \"liver\", 4 is \"left kidney\" "
         "(channel 1)) says");
     files_of_volume(path);
     EXPECT_TRUE(heard_.texts.empty());
     read_volume(write("q.nrrd", cube + "old min: -1\nold max: 1\n\n12"));
-    expect_said("old min, old max: found -1 and 1");
+    heard_.expect_said("old min, old max: found -1 and 1");
 }
 
 TEST_F(HeaderWords, OfTwoAxesAreOfOneSlice) {
@@ -231,7 +225,7 @@ TEST_F(HeaderWords, OfMetaImageAreUsedOrNamed) {
     EXPECT_EQ(testing::samples_of<std::uint8_t>(scaled), (std::vector<std::uint8_t>{7, 17}));
     EXPECT_TRUE(heard_.texts.empty());
     read_volume(file("CenterOfRotation = 1 2 3\n"));
-    expect_said("CenterOfRotation: found 1 2 3, which is not used");
+    heard_.expect_said("CenterOfRotation: found 1 2 3, which is not used");
     expect_error([&] { read_volume(file("ElementToIntensityFunctionSlope = 0\n")); },
                  {"ElementToIntensityFunctionSlope: found '0', expected a number but 0"});
     expect_error([&] { read_volume(file("HeaderSizePerSlice = 12\n")); },

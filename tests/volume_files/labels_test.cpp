@@ -25,7 +25,7 @@ VolumeRequest as_linear() {
     return request;
 }
 
-class LabelFiles : public testing::NrrdFiles {
+class LabelFiles : public testing::WrittenFiles {
   protected:
     // Writes a row of samples as a raw NRRD file, each of them `times` times.
     template <typename T>
@@ -43,13 +43,6 @@ class LabelFiles : public testing::NrrdFiles {
         AtomicFile file(path);
         write_nrrd(file, volume);
         file.commit();
-    }
-
-    // Expects a warning with this part, and forgets all.
-    void expect_said(const std::string& part) {
-        EXPECT_NE(heard_.all().find(part), std::string::npos)
-            << "'" << part << "' is not in: " << heard_.all();
-        heard_.texts.clear();
     }
 
     static std::vector<std::string> numbers_of(const Volume& volume) {
@@ -70,7 +63,8 @@ TEST_F(LabelFiles, AreTakenForLabelsByMeasure) {
     EXPECT_EQ(volume.type(), SampleType::uint8);  // which holds the numbers as they are
     EXPECT_EQ(samples_of<std::uint8_t>(volume)[119], 17);
     EXPECT_FALSE(volume.labels());
-    expect_said("row.nrrd: its samples are taken for labels, as 96.7 % of them equal their six");
+    heard_.expect_said(
+        "row.nrrd: its samples are taken for labels, as 96.7 % of them equal their six");
     EXPECT_EQ(read_volume(path, as_linear()).grid().lookup, VolumeLookup::linear);
     EXPECT_TRUE(heard_.texts.empty());
     VolumeRequest nearest;
@@ -90,7 +84,8 @@ TEST_F(LabelFiles, AreNumberedIfSixteenBitsDoNotHoldThem) {
     const auto codes = samples_of<std::uint8_t>(volume);
     const int expected[] = {1, 2, 3, 4, 0};
     for (std::size_t i = 0; i < codes.size(); ++i) EXPECT_EQ(codes[i], expected[i / 60]) << i;
-    expect_said("its 5 labels, from -5 to 1000000007, are numbered 0 to 4 in increasing order");
+    heard_.expect_said(
+        "its 5 labels, from -5 to 1000000007, are numbered 0 to 4 in increasing order");
     const Volume linear = read_volume(path, as_linear());
     EXPECT_EQ(linear.type(), SampleType::float32);
     EXPECT_FALSE(linear.labels());
@@ -120,17 +115,19 @@ TEST_F(LabelFiles, BeyondTheMostAreDrawnAsNumbers) {
     VolumeRequest nearest;
     nearest.lookup = VolumeLookup::nearest;
     EXPECT_EQ(read_volume(row("int32", values, 1), nearest).type(), SampleType::float32);
-    expect_said("row.nrrd: more than 65535 labels, which are drawn as numbers of type float");
+    heard_.expect_said(
+        "row.nrrd: more than 65535 labels, which are drawn as numbers of type float");
     values.pop_back();
     EXPECT_EQ(read_volume(row("int32", values, 1), nearest).type(), SampleType::uint16);
-    expect_said("its 65535 labels");
+    heard_.expect_said("its 65535 labels");
 }
 
 TEST_F(LabelFiles, OfNiftiAreKnownByTheirIntent) {
     const auto path =
         write("a.nii", testing::with_number(corpus_file("nifti/one.nii"), 68, std::int16_t{1002}));
     EXPECT_EQ(read_volume(path).grid().lookup, VolumeLookup::nearest);
-    expect_said("a.nii: its samples are labels, as intent_code 1002 says; \"lookup\": \"linear\"");
+    heard_.expect_said(
+        "a.nii: its samples are labels, as intent_code 1002 says; \"lookup\": \"linear\"");
     EXPECT_EQ(read_volume(path, as_linear()).grid().lookup, VolumeLookup::linear);
     EXPECT_TRUE(heard_.texts.empty());
 }
@@ -145,7 +142,7 @@ TEST_F(LabelFiles, OfSlicerHaveNamesAndColours) {
     const Volume volume = read_volume(flat);
     EXPECT_EQ(volume.grid().lookup, VolumeLookup::nearest);
     ASSERT_EQ(heard_.texts.size(), 1u) << heard_.all();
-    expect_said(
+    heard_.expect_said(
         "a.seg.nrrd: its samples are labels, as the list of segments (1 is \"liver\", 4 is \"left "
         "kidney\" (channel 1)) says; \"lookup\": \"linear\"");
     ASSERT_EQ(volume.labels()->list.size(), 1u);
@@ -187,7 +184,7 @@ TEST_F(LabelFiles, OfOmeZarrAreKnownByTheirImage) {
     for (const auto& path : {image, image / "0"}) {
         const Volume volume = read_volume(path);
         EXPECT_EQ(volume.grid().lookup, VolumeLookup::nearest);
-        expect_said("its samples are labels, as the OME-Zarr image says");
+        heard_.expect_said("its samples are labels, as the OME-Zarr image says");
         ASSERT_EQ(volume.labels()->list.size(), 2u);
         EXPECT_FALSE(volume.labels()->list[0].color);
         EXPECT_EQ(volume.labels()->list[0].name, "");
@@ -202,14 +199,15 @@ TEST_F(LabelFiles, ThatLookLikeLabelsButAreTakenForAFieldAreNamed) {
     std::vector<std::int32_t> steps(10);  // by 1, as in a rounded ramp
     for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = static_cast<std::int32_t>(i);
     EXPECT_EQ(read_volume(row("int32", steps, 60)).grid().lookup, VolumeLookup::linear);
-    expect_said(
+    heard_.expect_said(
         "97 % of them equal their six neighbours, but 100 % of unequal neighbours differ by 1");
     EXPECT_EQ(read_volume(row<std::int32_t>("int32", {0, 90, 4, 70}, 10)).grid().lookup,
               VolumeLookup::linear);
-    expect_said("row.nrrd: its samples look like labels, but only 85 % of them equal their six");
+    heard_.expect_said(
+        "row.nrrd: its samples look like labels, but only 85 % of them equal their six");
     EXPECT_EQ(read_volume(row<std::int32_t>("int32", {0, 90000, 4, 70000}, 10)).grid().lookup,
               VolumeLookup::linear);
-    expect_said("(--set volume.lookup=nearest) takes them for labels");
+    heard_.expect_said("(--set volume.lookup=nearest) takes them for labels");
     read_volume(row("int32", steps, 60), as_linear());
     EXPECT_TRUE(heard_.texts.empty());
 }
@@ -242,7 +240,7 @@ TEST_F(LabelFiles, ThatAreScaledAreWholeNumbersOrSaid) {
     const Volume halves = read_volume(scaled(.5, .25));
     EXPECT_EQ(halves.type(), SampleType::float32);
     EXPECT_EQ(halves.grid().lookup, VolumeLookup::nearest);
-    expect_said("but, scaled by 0.5 and shifted by 0.25, no whole numbers");
+    heard_.expect_said("but, scaled by 0.5 and shifted by 0.25, no whole numbers");
     EXPECT_EQ(read_volume(scaled(.5, .25), as_linear()).grid().lookup, VolumeLookup::linear);
     EXPECT_TRUE(heard_.texts.empty());
 }
@@ -256,7 +254,7 @@ TEST_F(LabelFiles, KeepNumbersNamesAndColoursWhenTheyAreSaved) {
     save(volume, saved);
     heard_.texts.clear();
     const Volume again = read_volume(saved);
-    expect_said("saved.nrrd: its samples are labels, as the list of segments");
+    heard_.expect_said("saved.nrrd: its samples are labels, as the list of segments");
     EXPECT_EQ(numbers_of(again), numbers_of(volume));
     EXPECT_EQ(samples_of<std::uint8_t>(again), samples_of<std::uint8_t>(volume));
     for (std::size_t i = 0; i < volume.labels()->list.size(); ++i) {
@@ -277,7 +275,7 @@ TEST_F(LabelFiles, KeepNumbersNamesAndColoursWhenTheyAreSaved) {
     save(read_volume(row<std::uint8_t>("uint8", {1, 2, 3, 4}, 1), nearest), saved);
     heard_.texts.clear();
     EXPECT_EQ(read_volume(saved).grid().lookup, VolumeLookup::nearest);
-    expect_said("saved.nrrd: its samples are labels, as its key lamina_lookup says");
+    heard_.expect_said("saved.nrrd: its samples are labels, as its key lamina_lookup says");
 }
 
 TEST_F(LabelFiles, KeepTheirNumbersInBrickedCopies) {

@@ -15,7 +15,7 @@ using testing::gzip;
 using testing::samples_of;
 using Samples = std::vector<std::uint8_t>;
 
-class NrrdAxes : public testing::NrrdFiles {
+class NrrdAxes : public testing::WrittenFiles {
   protected:
     test::HeardWarnings heard_;
     std::vector<std::string>& warnings_ = heard_.texts;

@@ -15,7 +15,7 @@ using testing::bytes_of_values;
 using testing::bzip2;
 using testing::expect_bad;
 using testing::gzip;
-using NrrdErrors = testing::NrrdFiles;
+using NrrdErrors = testing::WrittenFiles;
 
 const std::string good = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 3 2\nencoding: raw\n";
 

@@ -21,7 +21,7 @@
 
 namespace lamina::testing {
 
-class NrrdFiles : public ::testing::Test {
+class WrittenFiles : public ::testing::Test {
   protected:
     std::filesystem::path write(const std::string& name, const std::string& bytes) {
         write_bytes_to(folder_ / name, bytes);
@@ -30,7 +30,6 @@ class NrrdFiles : public ::testing::Test {
 
     const std::filesystem::path& folder() const { return folder_.path(); }
 
-  private:
     TemporaryFolder folder_;
 };
 

@@ -22,7 +22,7 @@ std::string surplus_header(const std::string& encoding, const std::string& more 
            more + "\n";
 }
 
-class NrrdSurplus : public testing::NrrdFiles {
+class NrrdSurplus : public testing::WrittenFiles {
   protected:
     // Returns the warnings of reading a file, and checks that it holds `samples`.
     std::vector<std::string> warnings_of(const std::filesystem::path& path) {

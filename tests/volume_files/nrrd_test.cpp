@@ -14,7 +14,7 @@ namespace {
 using testing::bytes_of_values;
 using testing::gzip;
 using testing::samples_of;
-using Nrrd = testing::NrrdFiles;
+using Nrrd = testing::WrittenFiles;
 
 std::string header(const std::string& type, const std::string& encoding,
                    const std::string& endian = "little", const std::string& more = "") {

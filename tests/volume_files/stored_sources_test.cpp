@@ -7,8 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "expect_boxes.h"
-#include "support/expect_error.h"
-#include "support/temporary_folder.h"
+#include "nrrd_files.h"
 #include "volume/volume_store.h"
 #include "volume_files/volume_file.h"
 
@@ -25,12 +24,8 @@ void expect_boxes(const fs::path& path, const VolumeRequest& request = {}) {
     test::expect_boxes(read_volume(path, request), open_volume(path, request, in_files));
 }
 
-class StoredSources : public ::testing::Test {
+class StoredSources : public testing::WrittenFiles {
   protected:
-    fs::path write(const std::string& name, const std::string& bytes) {
-        write_bytes_to(folder_ / name, bytes);
-        return folder_ / name;
-    }
     fs::path nrrd(const std::string& name, const std::string& fields, const std::string& data) {
         return write(name, "NRRD0004\n" + fields + "\n" + data);
     }
@@ -53,8 +48,6 @@ class StoredSources : public ::testing::Test {
                               noise_bytes(8 * 9 * 16 * bytes));
         return folder_ / "a.zarr";
     }
-
-    TemporaryFolder folder_;
 };
 
 TEST_F(StoredSources, ReadBoxesOfRawFiles) {

@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "corpus_files.h"
-#include "support/expect_error.h"
-#include "support/temporary_folder.h"
+#include "nrrd_files.h"
 #include "volume_files/volume_file.h"
 #include "volume_files/volume_formats.h"
 
@@ -15,13 +14,8 @@ namespace {
 using testing::corpus_file;
 using testing::with_number;
 
-class VolumeErrors : public ::testing::Test {
+class VolumeErrors : public testing::WrittenFiles {
   protected:
-    std::filesystem::path write(const std::string& name, const std::string& bytes) {
-        write_bytes_to(folder_ / name, bytes);
-        return folder_ / name;
-    }
-
     // Expects an error of reading a file of these bytes that has `parts` in it.
     void expect(const std::string& name, const std::string& bytes,
                 std::initializer_list<std::string> parts, const VolumeRequest& request = {}) {
@@ -30,8 +24,6 @@ class VolumeErrors : public ::testing::Test {
         expect_error([&] { read_volume(path, request); }, {name});
         expect_error([&] { read_volume(path, request); }, parts);
     }
-
-    TemporaryFolder folder_;
 };
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {

@@ -11,7 +11,7 @@
 namespace lamina {
 namespace {
 
-using VolumeFiles = testing::NrrdFiles;
+using VolumeFiles = testing::WrittenFiles;
 using Paths = std::vector<std::filesystem::path>;
 
 const std::string small_header =

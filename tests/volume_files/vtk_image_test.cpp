@@ -7,9 +7,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "support/expect_error.h"
+#include "nrrd_files.h"
 #include "support/heard_warnings.h"
-#include "support/temporary_folder.h"
 #include "volume_files/volume_file.h"
 #include "volume_files/volume_formats.h"
 
@@ -52,13 +51,8 @@ std::string grid_file(const std::string& x) {
            "</RectilinearGrid></VTKFile>\n";
 }
 
-class VtkImages : public ::testing::Test {
+class VtkImages : public testing::WrittenFiles {
   protected:
-    Path write(const std::string& name, const std::string& bytes) {
-        write_bytes_to(folder_ / name, bytes);
-        return folder_ / name;
-    }
-
     // Returns the samples of a row; NaN is -1.
     std::vector<double> row_of(const Path& path, const VolumeRequest& request = {}) {
         std::vector<double> row;
@@ -79,7 +73,6 @@ class VtkImages : public ::testing::Test {
         EXPECT_TRUE(found) << "nothing says " << part;
     }
 
-    TemporaryFolder folder_;
     test::HeardWarnings heard_;
 };
 
