@@ -162,7 +162,7 @@ std::string why_faint(const Scene& scene, const ValueRange& range, float largest
     const double factor = std::log1p(-visible) / std::log1p(-double{largest});
     return fmt::format(
         "the largest opacity is {:.2g}, for the extinction of at most {:.3g} per unit of length is "
-        "small for these data; {:.3g} times as much (--density) gives {}",
+        "small for these data; {:.3g} times as much (--density; in Python density) gives {}",
         largest, scene.transfer_function->max_extinction(range.lo, range.hi), factor, visible);
 }
 

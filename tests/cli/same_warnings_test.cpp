@@ -100,7 +100,7 @@ TEST_F(SameWarnings, AreGivenForPicturesThatShowAlmostNothing) {
     expect_both_say(traced(scene), "the picture shows almost nothing: the largest opacity is 0.00");
     extinction = .0001;
     expect_both_say(scene, "the picture shows nothing: the largest opacity is ");
-    expect_both_say(scene, " times as much (--density) gives 0.9");
+    expect_both_say(scene, " times as much (--density; in Python density) gives 0.9");
 }
 
 TEST_F(SameWarnings, AreGivenForABackgroundOfCodes) {
