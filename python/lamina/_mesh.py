@@ -129,9 +129,9 @@ def mesh(volume: Volume | Any, tolerance: float = 0.02, *, max_tets: int = 50000
     """Makes tetrahedra from a volume (or an array, or a file), as few as keep to ``tolerance``.
 
     ``tolerance``: largest difference to the volume's trilinear field anywhere, as a share of its range of values.
-    ``max_tets``: where the making stops, with a ``PictureWarning``. ``kuhn``: every sample and six tets a cell instead; needs no TetGen.
-    ``transfer_function``: the mesh may be coarse where it shows nothing. ``progress(activity, share)`` is called some
-    20 times a second.
+    ``max_tets``: where the making stops, with a ``PictureWarning``. ``kuhn``: every sample and six tets a cell
+    instead; needs no TetGen. ``transfer_function``: the mesh may be coarse where it shows nothing.
+    ``progress(activity, share)`` is called some 20 times a second.
 
     >>> x = np.linspace(0, 1, 9)
     >>> volume = lamina.Volume(np.float32(x[:, None, None] * x[:, None] * x), spacing=1 / 8)
