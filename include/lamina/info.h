@@ -19,4 +19,9 @@ LAMINA_API std::string describe_file(const std::filesystem::path& file,
                                      const std::filesystem::path& only_below = {},
                                      std::vector<std::string>* warnings = nullptr);
 
+// Tells whether samples in memory are like labels (docs/scene.md, "Labels"): those of files are
+// taken for such, others only if VolumeLookup::nearest says so. A mask of two values that differ by
+// at most 1 is a field as well.
+LAMINA_API bool look_like_labels(const Volume& volume);
+
 }  // namespace lamina

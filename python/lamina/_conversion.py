@@ -76,6 +76,8 @@ def plain_array(values: Any, what: str) -> np.ndarray:
         raise TypeError(f"{what}: found a masked array, expected an array without a mask; "
                         "values.filled(numpy.nan) with nan=\"transparent\" shows nothing where values are masked")
     array = np.asarray(values)
+    if isinstance(values, str):
+        raise TypeError(f"{what}: found {shown(values)}, expected numbers; lamina.read reads files")
     if array.dtype.kind not in "biuf":
         raise TypeError(f"{what}: found the type {array.dtype}, expected whole or floating-point numbers")
     return array

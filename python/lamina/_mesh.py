@@ -2,12 +2,14 @@
 """Tetrahedral meshes."""
 from __future__ import annotations
 
+import os
 import pathlib
 from typing import Any, Callable, Mapping
 
 import numpy as np
 
 from . import _conversion, _lamina
+from ._errors import PictureWarning, warn
 from ._volume import Path, Volume
 
 
@@ -124,12 +126,12 @@ class Mesh:
 
 def mesh(volume: Volume | Any, tolerance: float = 0.02, *, max_tets: int = 5000000, kuhn: bool = False,
          transfer_function: Any = None, progress: Callable[[str, float], object] | None = None) -> Mesh:
-    """Makes tetrahedra from a volume (or an array), as few as keep to ``tolerance``.
+    """Makes tetrahedra from a volume (or an array, or a file), as few as keep to ``tolerance``.
 
     ``tolerance``: largest difference to the volume's trilinear field anywhere, as a share of its range of values.
-    ``max_tets``: where the making stops. ``kuhn``: every sample and six tets a cell instead; needs no TetGen.
-    ``transfer_function``: the mesh may be coarse where it shows nothing. ``progress(activity, share)`` is called some
-    20 times a second.
+    ``max_tets``: where the making stops, with a ``PictureWarning``. ``kuhn``: every sample and six tets a cell
+    instead; needs no TetGen. ``transfer_function``: the mesh may be coarse where it shows nothing.
+    ``progress(activity, share)`` is called some 20 times a second.
 
     >>> x = np.linspace(0, 1, 9)
     >>> volume = lamina.Volume(np.float32(x[:, None, None] * x[:, None] * x), spacing=1 / 8)
@@ -137,10 +139,19 @@ def mesh(volume: Volume | Any, tolerance: float = 0.02, *, max_tets: int = 50000
     >>> len(made.tets), made.report["error"] < 1 / 64
     (3072, True)
     """
+    from ._reading import read  # makes meshes
     from ._scene import scene_of  # a scene reads transfer functions
-    data = volume if isinstance(volume, Volume) else Volume(volume)
+    data = read(volume) if isinstance(volume, (str, os.PathLike)) else volume
+    if isinstance(data, Mesh):
+        raise TypeError("volume: found a mesh, expected a volume, an array or the file of a volume")
+    data = data if isinstance(data, Volume) else Volume(data)
     if not 0 < tolerance <= 1:
         raise ValueError(f"tolerance: found {tolerance!r}, expected a number above 0 and up to 1 (of the range of values)")
     scene = None if transfer_function is None else scene_of(data, transfer_function, {})._parsed()
     core, report = _lamina.make_mesh(data._core, tolerance, max_tets, kuhn, scene, progress)
+    if not (kuhn or report["within_tolerance"]):
+        where = f"at {report['tets']} tets (max_tets)" if report["stopped_by_max_tets"] else \
+            "where points would lie too close"
+        warn(f"the mesh stopped {where}: it differs from the volume by up to {report['relative_error']:.3g} of the range "
+             f"of values, wanted {tolerance:.3g}", PictureWarning)
     return Mesh._of(core, report=report)

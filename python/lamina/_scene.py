@@ -29,6 +29,8 @@ _ELSEWHERE = {
     **dict.fromkeys(("title", "axes", "scale_bar", "labels", "box"), ", which annotations={...} takes"),
     **dict.fromkeys(("legend", "colorbar", "colourbar", "scalar_bar"), ', expected annotations={"colorbar": True}'),
     **dict.fromkeys(("spacing", "origin", "directions", "centers", "lookup"), ", which lamina.Volume takes"),
+    "samples": ', expected slice={"samples": ...}',
+    "image": ", whose keys are keywords themselves, as width=400",
     **dict.fromkeys(("time", "channel", "level", "array"), ", which lamina.read takes"),
 }
 

@@ -14,6 +14,9 @@ from ._watched import Watched, can_be_written
 
 Path = str | os.PathLike[str]
 
+LIKE_LABELS = ("array: its samples look like labels, and are taken for a field, which mixes labels where they meet: "
+               "lookup=\"nearest\" takes them for labels, lookup=\"linear\" for a field without this warning")
+
 
 def folder_name(folder: Path | None) -> str:
     """Returns the full name of a folder that data must be in, without links; empty if None."""
@@ -34,8 +37,8 @@ class Volume:
     ``"cell"`` it spans whole voxels, half a voxel more at each end. ``lookup``: with ``"linear"`` the field between
     samples is trilinear, with ``"nearest"`` it is constant in each sample's voxel, for labels: whole numbers of any
     type that 16 bits do not hold are then numbered as those of a file are (``labels``), with a ``PictureWarning``.
-    Unlike files, arrays are never taken for labels by themselves; pictures of those that look like labels have a
-    ``PictureWarning``.
+    Unlike files, arrays are never taken for labels by themselves: ``None`` is ``"linear"``, with a ``PictureWarning``
+    if samples look like labels.
 
     Contiguous arrays (contiguous as ``array[z, y, x]``: for ``axes="xyz"`` that is Fortran order) of uint8, int16,
     uint16 and float32 in native byte order are not copied: do not change them while they are drawn. If an array was
@@ -65,7 +68,7 @@ class Volume:
     def __init__(self, array: Any, spacing: float | Sequence[float] = (1, 1, 1),
                  origin: Sequence[float] = (0, 0, 0), axes: str = "zyx", *,
                  directions: Any = ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
-                 centers: str | Sequence[str] = "node", lookup: str = "linear") -> None:
+                 centers: str | Sequence[str] = "node", lookup: str | None = None) -> None:
         ordered = _conversion.array_zyx(array, axes)
         step_vectors = [tuple(length * number for number in direction) for length, direction
                         in zip(_conversion.spacing_of(spacing), _conversion.directions_of(directions))]
@@ -83,7 +86,10 @@ class Volume:
             samples, self._conversion = _conversion.drawn_array(ordered)
             if self._conversion:
                 warn(self._conversion, PrecisionWarning)
-            self._core = _lamina.Volume.over(np.asarray(samples), step_vectors, first_sample, centerings, lookup)
+            self._core = _lamina.Volume.over(np.asarray(samples), step_vectors, first_sample, centerings,
+                                             "linear" if lookup is None else lookup)
+            if lookup is None and self._core.look_like_labels():
+                warn(LIKE_LABELS, PictureWarning)
         is_shared = np.shares_memory(samples, ordered)
         self._changeable: np.ndarray | None = samples if is_shared and can_be_written(samples) else None
         self._file: pathlib.Path | None = None

@@ -84,7 +84,8 @@ def _image(image: Any, values: np.ndarray, matrix: np.ndarray) -> Volume:
     origin = matrix[:3, 3] + matrix[:3, :3] @ np.array(image.GetOrigin()) + steps @ np.array(first)
     spacing = np.linalg.norm(steps, axis=0)
     try:
-        return Volume(values.reshape(z, y, x), spacing.tolist(), origin.tolist(), directions=(steps / spacing).T)
+        return Volume(values.reshape(z, y, x), spacing.tolist(), origin.tolist(), directions=(steps / spacing).T,
+                      lookup="linear")
     except ValueError as error:
         raise Error(f"image data: {error}") from None
 

@@ -149,6 +149,7 @@ void bind_volume(py::module_& module) {
     py::class_<Volume>(module, "Volume")
         .def_static("over", &volume_over, py::arg("array"), py::arg("steps"), py::arg("origin"),
                     py::arg("centers"), py::arg("lookup") = "linear", py::arg("unit") = "")
+        .def("look_like_labels", &look_like_labels, py::call_guard<py::gil_scoped_release>())
         .def_static("labels_over", &labels_over, py::arg("array"), py::arg("type"),
                     py::arg("steps"), py::arg("origin"), py::arg("centers"))
         .def_static(

@@ -248,7 +248,7 @@ AutomaticTransfer label_transfer(const ValueDistribution& values, const VolumeLa
 }
 
 std::optional<double> value_around(const TransferSubject& subject) {
-    return subject.field == nullptr ? std::nullopt : subject.field->corner_value();
+    return subject.field == nullptr ? std::nullopt : subject.field->value_around();
 }
 
 AutomaticTransfer in_own_colors(const Padding& padding, bool whole_numbers,

@@ -242,6 +242,55 @@ ValueRange kept_samples(const Volume& volume, std::span<const IndexPlane> planes
     return kept;
 }
 
+// Returns the value at all corners of a volume; nothing if they differ.
+std::optional<double> corner_value(const Volume& volume) {
+    const std::array<std::int64_t, 3>& size = volume.grid().size;
+    std::optional<double> found;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        SampleBox one{{0, 0, 0}, {1, 1, 1}};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if ((corner >> axis & 1) != 0) one.first[axis] = size[axis] - 1;
+        const double value = with_sample_type(volume.type(), [&](auto zero) {
+            return visit_window<decltype(zero)>(volume, one, [&](const auto& window) {
+                return static_cast<double>(window.at(one.first[0], one.first[1], one.first[2]));
+            });
+        });
+        if (found && *found != value) return std::nullopt;
+        found = value;
+    }
+    return found;
+}
+
+// Tells whether all samples at the outer faces of a volume have a value; an axis of one sample has
+// no faces.
+bool faces_have(const Volume& volume, double value) {
+    const SampleBox whole{{0, 0, 0}, volume.grid().size};
+    const auto has_value = [&](const SampleBox& face) {
+        return with_sample_type(volume.type(), [&](auto zero) {
+            using T = decltype(zero);
+            return visit_window<T>(volume, face, [&](const SampleWindow<T>& window) {
+                for (std::int64_t z = face.first[2]; z < face.first[2] + face.size[2]; ++z) {
+                    for (std::int64_t y = face.first[1]; y < face.first[1] + face.size[1]; ++y) {
+                        const T* const row = window.row(y, z) + face.first[0] - window.box.first[0];
+                        const auto odd = [&](T sample) { return double(sample) != value; };
+                        if (std::any_of(row, row + face.size[0], odd)) return false;
+                    }
+                }
+                return true;
+            });
+        });
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const std::int64_t at : {std::int64_t{0}, whole.size[axis] - 1}) {
+            SampleBox face = whole;
+            face.first[axis] = at;
+            face.size[axis] = 1;
+            if (whole.size[axis] > 1 && !has_value(face)) return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace
 
 double VolumeField::spacing() const {
@@ -279,22 +328,11 @@ bool VolumeField::lies_in_pieces() const {
     return *in_pieces_;
 }
 
-std::optional<double> VolumeField::corner_value() const {
-    const std::array<std::int64_t, 3>& size = volume_.grid().size;
-    std::optional<double> found;
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        SampleBox one{{0, 0, 0}, {1, 1, 1}};
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if ((corner >> axis & 1) != 0) one.first[axis] = size[axis] - 1;
-        const double value = with_sample_type(volume_.type(), [&](auto zero) {
-            return visit_window<decltype(zero)>(volume_, one, [&](const auto& window) {
-                return static_cast<double>(window.at(one.first[0], one.first[1], one.first[2]));
-            });
-        });
-        if (found && *found != value) return std::nullopt;
-        found = value;
-    }
-    return found;
+std::optional<double> VolumeField::value_around() const {
+    const std::optional<double> found = corner_value(volume_);
+    if (!found || labels() == nullptr) return found;
+    const bool is_large = volume_.grid().sample_count() > large_volume;
+    return is_large || !faces_have(volume_, *found) ? std::nullopt : found;
 }
 
 const VolumeLabels* VolumeField::labels() const {

@@ -57,8 +57,9 @@ class Field {
     // Tells if a few whole numbers lie in pieces, as labels do, and not as noise or a rounded
     // field.
     virtual bool lies_in_pieces() const { return true; }
-    // Returns the value at all corners of a volume, which a margin has; nothing if they differ.
-    virtual std::optional<double> corner_value() const { return std::nullopt; }
+    // Returns the value around the data: of labels, that of all samples at the outer faces, else
+    // that at all corners of a volume; nothing if they differ, or of large volumes of labels.
+    virtual std::optional<double> value_around() const { return std::nullopt; }
     // Returns what the file says of labels, maybe nothing, if all values are labels; else null.
     virtual const VolumeLabels* labels() const { return nullptr; }
     // Returns the share of the field from which on a value may be padding (find_padding()).
@@ -119,7 +120,7 @@ class VolumeField : public Field {
     double spacing() const override;
     bool whole_numbers() const override { return volume_.type() != SampleType::float32; }
     bool lies_in_pieces() const override;
-    std::optional<double> corner_value() const override;
+    std::optional<double> value_around() const override;
     const VolumeLabels* labels() const override;
     double least_padding_share() const override { return least_padding; }
     ValueDistribution distribution() const override;

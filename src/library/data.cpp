@@ -11,6 +11,8 @@
 #include "mesh_files/mesh_file.h"
 #include "meshing/volume_mesh.h"
 #include "render/file_report.h"
+#include "volume/labels.h"
+#include "volume/min_max_bricks.h"
 #include "volume/nrrd_writer.h"
 #include "volume_files/stored_samples.h"
 #include "volume_files/volume_file.h"
@@ -54,6 +56,17 @@ Volume label_volume(const Grid& grid, const std::string& type, std::shared_ptr<c
     std::vector<std::string> said;
     return keep_warnings(warnings == nullptr ? said : *warnings,
                          [&] { return drawn_volume(voxels, numbers, voxels.lookup); });
+}
+
+bool look_like_labels(const Volume& volume) {
+    if (!volume.in_memory()) return false;
+    const LabelSigns signs =
+        volume.type() == SampleType::float32
+            ? label_signs(volume.grid().size, ValueType::float32, volume.data())
+            : label_signs(volume);
+    if (!signs.are_labels()) return false;
+    const ValueRange range = measure_bricks(volume).whole;
+    return range.hi - range.lo > 1;
 }
 
 MeshData load_mesh_data(const std::filesystem::path& file,

@@ -34,31 +34,10 @@ std::map<std::string, std::int64_t> counts_of(const SceneMesh& mesh) {
     return counts;
 }
 
-// Tells whether samples in memory, which are not taken for labels by themselves, are like labels. A
-// mask of two values that differ by 1 is a field as well.
-bool seems_to_be_labels(const VolumeData& data) {
-    const Volume& volume = data.volume;
-    const ValueRange& range = data.bricks.whole;
-    if (volume.grid().lookup != VolumeLookup::linear || !volume.in_memory() ||
-        !(range.hi - range.lo > 1))
-        return false;
-    const LabelSigns signs =
-        volume.type() == SampleType::float32
-            ? label_signs(volume.grid().size, ValueType::float32, volume.data())
-            : label_signs(volume);
-    return signs.are_labels();
-}
-
 }  // namespace
 
 SceneData::SceneData(Volume volume)
-    : SceneData(std::make_shared<const VolumeData>(std::move(volume))) {
-    if (seems_to_be_labels(*volume_)) {
-        volume_warnings_.emplace_back(
-            "volume: its samples look like labels, and are taken for a field, which mixes labels "
-            "where they meet: \"lookup\": \"nearest\" takes them for labels");
-    }
-}
+    : SceneData(std::make_shared<const VolumeData>(std::move(volume))) {}
 
 SceneData::SceneData(const Scene& scene, MeshData mesh, const std::optional<MeshReport>& report) {
     auto drawn = std::make_shared<SceneMesh>(scene_mesh(scene, std::move(mesh)));

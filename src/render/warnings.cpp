@@ -156,13 +156,16 @@ const char* side_beside(const View& view, const std::array<glm::dvec3, 8>& corne
     return nullptr;
 }
 
-// Returns why a picture is faint, and what to do. `largest`: its largest opacity, above 0.
+// Returns why a picture is faint, and what to do unless the clip may be the cause. `largest`: its
+// largest opacity, above 0.
 std::string why_faint(const Scene& scene, const ValueRange& range, float largest) {
+    if (!scene.clip.keeps_all())
+        return fmt::format("the largest opacity in what the clip keeps is {:.2g}", largest);
     constexpr double visible = .9;  // opacity
     const double factor = std::log1p(-visible) / std::log1p(-double{largest});
     return fmt::format(
         "the largest opacity is {:.2g}, for the extinction of at most {:.3g} per unit of length is "
-        "small for these data; {:.3g} times as much (--density) gives {}",
+        "small for these data; {:.3g} times as much (--density; in Python density) gives {}",
         largest, scene.transfer_function->max_extinction(range.lo, range.hi), factor, visible);
 }
 

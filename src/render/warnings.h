@@ -37,9 +37,9 @@ Warnings trace_warnings(std::int64_t overlapping_rays);
 
 void warn_of_all(const Warnings& all);
 
-// Warns if the picture shows (almost) nothing, with the reason; if more than half of the pixels that show
-// something are saturated; and if the colours change only outside the data's range. Nothing in the
-// scene may be automatic; `field` is that of its data.
+// Warns if the picture shows (almost) nothing, with the reason; if more than half of the pixels
+// that show something are saturated; and if the colours change only outside the data's range.
+// Nothing in the scene may be automatic; `field` is that of its data.
 void warn_of_picture(const Scene& scene, const Field& field, const Image& picture);
 
 // Returns the number of points of the transfer function whose colour has a component above 1, which

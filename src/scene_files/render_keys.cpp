@@ -175,7 +175,9 @@ void check_method(JsonReader& reader, Scene& scene) {
     if (scene.method == Method::slice && !has_volume(reader, scene))
         reader.reject("method", "\"project\" or \"trace\" for a scene without a volume");
     if (scene.method == Method::project && !has_mesh(reader, scene))
-        reader.reject("method", "\"slice\" or \"trace\" for a scene without a mesh");
+        reader.reject("method",
+                      "\"slice\" or \"trace\" for a scene without a mesh (mesh.tolerance=.02 makes "
+                      "one of the volume)");
     const bool emulates = scene.method == Method::project && scene.target == Target::emulated;
     if (emulates && scene.project.dither == ProjectDither::alpha) {
         reader.fail_at("project.dither",

@@ -170,6 +170,7 @@ class MetaImage {
                 spacing[axis] * glm::dvec3(row[0], row[1], dimensions_ > 2 ? row[2] : 0);
             grid.origin[static_cast<int>(axis)] = origin[axis];
         }
+        if (dimensions_ == 2) grid.step[2] = slice_step(grid.step[0], grid.step[1]);
         const std::string orientation = fields_.text("AnatomicalOrientation");
         if (orientation.find_first_of("RLAPIS") != std::string::npos)
             grid.axes = WorldAxes::left_posterior_superior;

@@ -23,6 +23,7 @@ struct NiftiHeader {
     bool big_endian = false;
     std::array<std::int64_t, 8> dim{};  // dim[0]: number of dimensions; others: their sizes
     std::array<double, 8> pixdim{};
+    bool is_slice = false;  // of two axes, and dim says three; nifti1.h leaves pixdim[3] open
     std::int64_t datatype = 0;
     std::int64_t data_offset = 0;
     double slope = 0, intercept = 0;
@@ -142,10 +143,10 @@ std::optional<NiftiHeader> header_of(const Path& path, const HeaderBytes& bytes,
         read_fields_2(bytes, header);
     else
         read_fields_1(bytes, header);
-    if (header.dim[0] == 2) {  // one slice
+    if (header.dim[0] == 2) {
+        header.is_slice = true;
         header.dim[0] = 3;
         header.dim[3] = 1;
-        if (!(header.pixdim[3] > 0)) header.pixdim[3] = 1;
     }
     header.data_path = magic == single ? path : image_path(path);
     const auto least = static_cast<std::int64_t>(second ? header2_bytes : header1_bytes);
@@ -186,12 +187,19 @@ double voxel_length(const NiftiHeader& header, std::size_t i) {
     return length;
 }
 
+// Returns the lengths of a voxel; a slice is as thick as its shorter side.
+std::array<double, 3> voxel_lengths(const NiftiHeader& header) {
+    const double x = voxel_length(header, 1), y = voxel_length(header, 2);
+    return {x, y, header.is_slice ? std::min(x, y) : voxel_length(header, 3)};
+}
+
 void place_by_sform(const NiftiHeader& header, Grid& grid) {
     for (int row = 0; row < 3; ++row) {
         const auto& values = header.srow[static_cast<std::size_t>(row)];
         for (std::size_t axis = 0; axis < 3; ++axis) grid.step[axis][row] = values[axis];
         grid.origin[row] = values[3];
     }
+    if (header.is_slice) grid.step[2] = slice_step(grid.step[0], grid.step[1]);
 }
 
 void place_by_qform(const NiftiHeader& header, Grid& grid) {
@@ -204,9 +212,9 @@ void place_by_qform(const NiftiHeader& header, Grid& grid) {
     }
     const auto columns = rotation_of(header.quaternion);
     const double handedness = header.pixdim[0] < 0 ? -1 : 1;
+    const auto lengths = voxel_lengths(header);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double length = voxel_length(header, axis + 1) * (axis == 2 ? handedness : 1);
-        grid.step[axis] = length * columns[axis];
+        grid.step[axis] = lengths[axis] * (axis == 2 ? handedness : 1) * columns[axis];
         grid.origin[static_cast<int>(axis)] = header.offset[axis];
     }
 }
@@ -262,8 +270,8 @@ Grid nifti_grid(const NiftiHeader& header) {
     if (by_sform || header.qform_code > 0) {
         turn_to_lps(grid, WorldAxes::right_anterior_superior);
     } else {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            grid.step[axis] *= voxel_length(header, axis + 1);
+        const auto spacing = voxel_lengths(header);
+        for (std::size_t axis = 0; axis < 3; ++axis) grid.step[axis] *= spacing[axis];
         check_grid(header.path.string(), grid, {"pixdim", "pixdim"});
     }
     return grid;

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <glm/geometric.hpp>
 #include <map>
 #include <set>
 #include <sstream>
@@ -569,15 +568,19 @@ void take_label_keys(const std::map<std::string, std::string>& keys, const Volum
 }
 
 // Makes two axes three, the last of one sample at a right angle to the others.
-void add_third_axis(Nrrd& nrrd) {
+void add_third_axis(const std::string& file, Nrrd& nrrd) {
     NrrdAxisInfo& third = nrrd.axis[2];
+    const bool is_first_shorter = spacing_of(nrrd.axis[0]) <= spacing_of(nrrd.axis[1]);
+    const NrrdAxisInfo& shorter = nrrd.axis[is_first_shorter ? 0 : 1];
     nrrd.dim = 3;
     third.size = 1;
-    third.units = airStrdup(nrrd.axis[0].units);
-    if (!has_direction(nrrd, 0)) {
-        third.spacing = 1;
-        return;
-    }
+    third.units = airStrdup(shorter.units);
+    third.spacing = spacing_of(shorter);
+    if (!has_direction(nrrd, 0) && !has_direction(nrrd, 1)) return;
+    third.spacing = NAN;
+    for (const unsigned axis : {0U, 1U})
+        if (!has_direction(nrrd, axis))
+            fail("{}: space directions: axis {} has none, expected two directions", file, axis);
     if (nrrd.spaceDim == 2) {
         nrrd.spaceDim = 3;
         nrrd.axis[0].spaceDirection[2] = nrrd.axis[1].spaceDirection[2] = nrrd.spaceOrigin[2] = 0;
@@ -587,8 +590,8 @@ void add_third_axis(Nrrd& nrrd) {
         const double* const of = nrrd.axis[axis].spaceDirection;
         return glm::dvec3(of[0], of[1], of[2]);
     };
-    const glm::dvec3 normal = glm::normalize(glm::cross(direction(0), direction(1)));
-    for (int i = 0; i < 3; ++i) third.spaceDirection[i] = normal[i];
+    const glm::dvec3 across = slice_step(direction(0), direction(1));
+    for (int i = 0; i < 3; ++i) third.spaceDirection[i] = across[i];
 }
 
 NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeRequest& request) {
@@ -610,7 +613,7 @@ NrrdHeader read_nrrd_header(const std::filesystem::path& path, const VolumeReque
             fail("{}: the NRRD header has no '{}' field", name, field);
     if (bad) fail("{}: bad NRRD header: {}", name, reason);
 
-    if (nrrd->dim == 2) add_third_axis(*nrrd);
+    if (nrrd->dim == 2) add_third_axis(name, *nrrd);
     NrrdHeader header;
     header.grid = nrrd_grid(name, *nrrd, text.fields.contains("spacings"));
     StoredData& data = header.data;

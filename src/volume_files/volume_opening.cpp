@@ -96,6 +96,18 @@ void check_grid(const std::string& file, Grid& grid, const GridWords& words) {
     make_orthogonal(file, grid, words);
 }
 
+glm::dvec3 slice_step(const glm::dvec3& first, const glm::dvec3& second) {
+    const double least = std::min(glm::length(first), glm::length(second));
+    if (!(least > 0)) return glm::dvec3(0);
+    const glm::dvec3 along = glm::normalize(first);
+    glm::dvec3 normal = glm::cross(along, glm::normalize(second));
+    if (normal == glm::dvec3(0)) {
+        const bool is_x = std::abs(along.x) > .5;
+        normal = glm::cross(along, is_x ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0));
+    }
+    return least * glm::normalize(normal);
+}
+
 void turn_to_lps(Grid& grid, WorldAxes axes) {
     if (axes == WorldAxes::unnamed) return;
     const glm::dvec3 turn{axes == WorldAxes::right_anterior_superior ? -1 : 1,

@@ -36,6 +36,11 @@ struct GridWords {
 // samples. `file`: for messages.
 void check_grid(const std::string& file, Grid& grid, const GridWords& words);
 
+// Returns the step across an image of two axes with these steps: as long as the shorter one, at a
+// right angle to both; to the first if they are parallel, and 0 if one is, which check_grid()
+// refuses.
+glm::dvec3 slice_step(const glm::dvec3& first, const glm::dvec3& second);
+
 // Converts a grid from world axes `axes` to those of DICOM (LPS), which are lamina's. Samples stay
 // at their places in the body. A grid in unnamed axes stays as it is.
 void turn_to_lps(Grid& grid, WorldAxes axes);

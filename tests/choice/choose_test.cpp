@@ -322,6 +322,36 @@ TEST(Choose, LeavesOutAMarginAroundLabels) {
     EXPECT_TRUE(shows(nothing_else, 3));
 }
 
+// Such as rock: the matrix fills the box and its corners, and pores reach the faces, too.
+TEST(Choose, TakesNoLabelForAMarginThatOthersInterruptAtTheFaces) {
+    Grid grid = test::grid_of({24, 24, 24}, Centering::node);
+    grid.lookup = VolumeLookup::nearest;
+    const auto chosen = [&](std::size_t axis, double end) {
+        const Volume volume =
+            test::volume_of<std::uint8_t>(grid, [&](double i, double j, double k) {
+                const std::array<double, 3> at{i, j, k};
+                if (at[axis] == end && at[(axis + 1) % 3] == 9 && at[(axis + 2) % 3] == 13)
+                    return 0;
+                const double least = std::min({i, j, k}), most = std::max({i, j, k});
+                return least > 6 && most < 15 ? 2 : least > 15 && most < 20 ? 0 : 1;
+            });
+        const MinMaxBricks bricks = measure_bricks(volume);
+        return choose(open_scene(), VolumeField(volume, bricks), {});
+    };
+    const auto shows_matrix = [](const Choices& choices) {
+        EXPECT_GT(choices.scene.transfer_function->at(2).extinction, 0);
+        return choices.scene.transfer_function->at(1).extinction > 0;
+    };
+    EXPECT_FALSE(shows_matrix(chosen(0, 12)));  // a pore inside
+    for (const std::size_t axis : {0, 1, 2}) {
+        for (const double end : {0, 23}) {
+            const Choices found = chosen(axis, end);
+            EXPECT_TRUE(shows_matrix(found)) << axis << ", " << end;
+            EXPECT_EQ(chosen_text(found.reasons).find("lies around"), std::string::npos);
+        }
+    }
+}
+
 // Noise of few values is a field, and pieces of few values are labels.
 TEST(Choose, TellsFewValuesOfNoiseFromLabels) {
     const auto reason_of = [](const auto& value) {

@@ -100,7 +100,16 @@ TEST_F(SameWarnings, AreGivenForPicturesThatShowAlmostNothing) {
     expect_both_say(traced(scene), "the picture shows almost nothing: the largest opacity is 0.00");
     extinction = .0001;
     expect_both_say(scene, "the picture shows nothing: the largest opacity is ");
-    expect_both_say(scene, " times as much (--density) gives 0.9");
+    expect_both_say(scene, " times as much (--density; in Python density) gives 0.9");
+}
+
+// Rays meet a sliver of .0001 at cosines above .29. At an extinction of 3, opacities are below
+// .0011, which is less than half a code.
+TEST_F(SameWarnings, DoNotBlameTheExtinctionForWhatAClipLeaves) {
+    json scene = gaussians_scene(12, 24, 18, 4);
+    scene["transfer_function"]["points"][1]["extinction"] = 3;
+    scene["clip"]["box"] = {{"min", {0, 0, .5}}, {"max", {1, 1, .5001}}};
+    expect_both_say(scene, "shows nothing: the largest opacity in what the clip keeps is ");
 }
 
 TEST_F(SameWarnings, AreGivenForABackgroundOfCodes) {

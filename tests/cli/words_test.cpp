@@ -130,6 +130,10 @@ TEST_F(WordsRun, OptionsThatAreWrongAreNamed) {
     expect({"--colourmap", "greys"}, "--colourmap: no such option, did you mean \"--colormap\"?");
     expect({"--titel", "x"}, "--titel: no such option, did you mean \"--title\"?");
     expect({"--set", "mesh.scalar=p"}, "--set mesh.scalar: expected scalar=p: the array of a mesh");
+    const ProgramResult no_mesh = run({"--method", "project"}, "render", folder / "x.png");
+    EXPECT_NE(no_mesh.err.find("without a mesh (mesh.tolerance=.02 makes one of the volume)"),
+              std::string::npos)
+        << no_mesh.err;
     expect({"--max-error", ".1"},
            "--max-error: no such option, did you mean --set render.max_error=VALUE?");
     expect({"--set", "max_error=.1"},

@@ -76,6 +76,20 @@ def test_a_mesh_of_a_volume(blob, function):
         lamina.mesh(blob, 0)
     with pytest.raises(lamina.Error, match="tets"):
         lamina.mesh(blob, kuhn=True, max_tets=100)
+    with pytest.warns(lamina.PictureWarning, match=r"the mesh stopped at \d+ tets \(max_tets\): it differs"):
+        lamina.mesh(blob, max_tets=10)
+
+
+def test_meshes_are_made_of_files(blob, tmp_path):
+    blob.save(tmp_path / "blob.nrrd")
+    made = lamina.mesh(tmp_path / "blob.nrrd", 0.2)
+    assert np.array_equal(made.points, lamina.mesh(blob, 0.2).points)
+    made.save(tmp_path / "a.vtu")
+    for mesh in (made, tmp_path / "a.vtu"):
+        with pytest.raises(TypeError, match="volume: found a mesh"):
+            lamina.mesh(mesh)
+    with pytest.raises(TypeError, match="array: found 'a.nrrd', expected numbers; lamina.read reads files"):
+        lamina.Volume("a.nrrd")
 
 
 def test_meshes_come_back_from_files(blob, tmp_path):

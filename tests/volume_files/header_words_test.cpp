@@ -166,34 +166,35 @@ TEST_F(HeaderWords, OfNrrdSayWhatSegmentsAre) {
 }
 
 TEST_F(HeaderWords, OfTwoAxesAreOfOneSlice) {
-    const auto expect_slice = [&](const std::filesystem::path& path, const glm::dvec3& first) {
+    const auto expect_slice = [&](const std::filesystem::path& path, const glm::dvec3& first,
+                                  double across) {
         SCOPED_TRACE(path.string());
         const Volume slice = read_volume(path);
         EXPECT_EQ(slice.grid().size, (std::array<std::int64_t, 3>{3, 2, 1}));
         EXPECT_EQ(testing::samples_of<std::uint8_t>(slice),
                   (std::vector<std::uint8_t>{'a', 'b', 'c', 'd', 'e', 'f'}));
         EXPECT_EQ(slice.grid().step[0], first);
-        EXPECT_EQ(slice.grid().step[2], glm::dvec3(0, 0, 1));
+        EXPECT_EQ(slice.grid().step[2], glm::dvec3(0, 0, across));
         EXPECT_TRUE(heard_.texts.empty()) << heard_.all();
     };
     const std::string samples = "abcdef";
     const std::string nrrd =
         "NRRD0004\ntype: uint8\ndimension: 2\nsizes: 3 2\nencoding: raw\nendian: little\n";
-    expect_slice(write("a.nrrd", nrrd + "\n" + samples), {1, 0, 0});
-    expect_slice(write("b.nrrd", nrrd + "spacings: 2 3\n\n" + samples), {2, 0, 0});
+    expect_slice(write("a.nrrd", nrrd + "\n" + samples), {1, 0, 0}, 1);
+    expect_slice(write("b.nrrd", nrrd + "spacings: 3 2\n\n" + samples), {3, 0, 0}, 2);
     // As ITK writes them.
     expect_slice(write("c.nrrd", nrrd +
                                      "space dimension: 2\nspace directions: (2,0) (0,3)\n"
                                      "space origin: (5,7)\n\n" +
                                      samples),
-                 {2, 0, 0});
+                 {2, 0, 0}, 2);
     EXPECT_EQ(read_volume(folder() / "c.nrrd").grid().origin, glm::dvec3(5, 7, 0));
     expect_slice(write("a.mha",
                        "ObjectType = Image\nNDims = 2\nDimSize = 3 2\n"
                        "TransformMatrix = 1 0 0 1\nOffset = 5 7\nElementSpacing = 2 3\n"
                        "ElementType = MET_UCHAR\nElementDataFile = LOCAL\n" +
                            samples),
-                 {2, 0, 0});
+                 {2, 0, 0}, 2);
     std::string nifti(352, '\0');
     const std::int16_t dim[] = {2, 3, 2};
     const float pixdim[] = {1, 2, 3}, offset = 352;
@@ -204,11 +205,16 @@ TEST_F(HeaderWords, OfTwoAxesAreOfOneSlice) {
     }
     nifti = with_number(with_number(nifti, 70, std::int16_t{2}), 72, std::int16_t{8});
     nifti = with_number(nifti, 108, offset).replace(344, 3, "n+1");
-    expect_slice(write("a.nii", nifti + samples), {2, 0, 0});
+    expect_slice(write("a.nii", nifti + samples), {2, 0, 0}, 2);
+    // nibabel gives the sform a third column of any length.
+    nifti = with_number(nifti, 254, std::int16_t{1});
+    for (std::size_t row = 0; row < 3; ++row)
+        nifti = with_number(nifti, 280 + 20 * row, row == 0 ? -2.F : row == 1 ? -3.F : 1.F);
+    expect_slice(write("b.nii", nifti + samples), {2, 0, 0}, 2);
     std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 3), }";
     header += std::string(117 - header.size(), ' ') + "\n";
     expect_slice(write("a.npy", std::string("\x93NUMPY\x01\0\x76\0", 10) + header + samples),
-                 {1, 0, 0});
+                 {1, 0, 0}, 1);
 }
 
 TEST_F(HeaderWords, OfMetaImageAreUsedOrNamed) {

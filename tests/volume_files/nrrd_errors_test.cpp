@@ -98,11 +98,26 @@ TEST_F(NrrdErrors, NameUnsupportedTypesAndEncodings) {
     expect_bad(write("a.nrrd", hex + "0001" + blanks), {"found 2 bytes of hex data, expected 24"});
 }
 
+TEST_F(NrrdErrors, NameBadDirectionsOfTwoAxes) {
+    const auto expect_bad_with = [&](const std::string& directions,
+                                     std::initializer_list<std::string> said) {
+        expect_bad(write("a.nrrd",
+                         "NRRD0004\ntype: uint8\ndimension: 2\nsizes: 4 3\nencoding: raw\n"
+                         "space dimension: 2\nspace directions: " +
+                             directions + "\n\n" + std::string(12, 'x')),
+                   said);
+    };
+    expect_bad_with("(1,0) none", {"space directions: axis 1 has none", "expected two"});
+    expect_bad_with("none (1,0)", {"space directions: axis 0 has none", "expected two"});
+    for (const char* const parallel : {"(1,0) (2,0)", "(0,1) (0,-2)", "(.1,.3) (.2,.6)"})
+        expect_bad_with(parallel, {"space directions: axes 0 and 1 meet at"});
+    expect_bad_with("(1,0) (0,0)", {"axis 1: found a distance of 0"});
+}
+
 TEST_F(NrrdErrors, RefuseWhatHasNotThreeAxes) {
-    expect_bad(
-        write("a.nrrd", "NRRD0004\ntype: uint8\ndimension: 1\nsizes: 12\nencoding: raw\n\n" +
-                            std::string(12, 'x')),
-        {"found 1 axes", "expected 3"});
+    expect_bad(write("a.nrrd", "NRRD0004\ntype: uint8\ndimension: 1\nsizes: 12\nencoding: raw\n\n" +
+                                   std::string(12, 'x')),
+               {"found 1 axes", "expected 3"});
     expect_bad(
         write("a.nrrd", "NRRD0004\ntype: uint8\ndimension: 4\nsizes: 3 4 3 2\nencoding: raw\n\n" +
                             std::string(72, 'x')),
