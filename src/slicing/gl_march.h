@@ -101,6 +101,7 @@ class GlMarchedPicture {
     virtual void clear() = 0;
     // Draws the picture, which must be clear. Ctrl-C ends it between dispatches.
     virtual void draw(Progress* progress) = 0;
+    virtual void end_frame() = 0;  // waits for what was drawn
     virtual void read(Image& image) const = 0;
 };
 
