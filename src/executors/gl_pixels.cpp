@@ -98,13 +98,23 @@ void GlPixels::bind(unsigned binding, int first_row, int rows) const {
 }
 
 void GlPixels::read(Image& image, double largest) const {
-    reading_.take(words_);
-    image.resize(width_, height_);
-    set_values(largest);
+    const std::size_t row_bytes = sizeof(std::uint32_t) * static_cast<std::size_t>(row_words_);
+    const int at_once = gl::ReadBack::rows_at_once(row_bytes);
+    for (int first = 0; first < height_; first += at_once) {
+        const int rows = std::min(at_once, height_ - first);
+        reading_.take(words_, static_cast<std::size_t>(first) * row_bytes,
+                      static_cast<std::size_t>(rows) * row_bytes);
+        image.resize(width_, height_);
+        set_values(largest);
+        unpack_rows(image, first, rows);
+    }
+}
+
+void GlPixels::unpack_rows(Image& image, int first, int rows) const {
     const std::span<const std::uint32_t> words = reading_.values<std::uint32_t>();
-    parallel_for(height_, 16, [&](std::int64_t row) {
+    parallel_for(rows, 16, [&](std::int64_t row) {
         const std::uint32_t* const from = words.data() + row * row_words_;
-        const std::span numbers(image.pixel(0, static_cast<int>(row)),
+        const std::span numbers(image.pixel(0, first + static_cast<int>(row)),
                                 4 * static_cast<std::size_t>(width_));
         if (packing_ == PixelPacking::floats)
             std::memcpy(numbers.data(), from, numbers.size_bytes());

@@ -48,7 +48,8 @@ class GlPixels {
     void read(Image& image, double largest) const;
 
   private:
-    void set_values(double largest) const;  // unless they are set
+    void unpack_rows(Image& image, int first, int rows) const;  // which were taken
+    void set_values(double largest) const;                      // unless they are set
 
     PixelPacking packing_;
     int width_, height_, row_words_;

@@ -18,15 +18,6 @@
 
 namespace lamina::gl {
 
-namespace {
-
-int largest_render_target() {
-    GLint viewport[2] = {0, 0};
-    api().GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
-    return std::min({integer(GL_MAX_TEXTURE_SIZE), integer(GL_MAX_FRAMEBUFFER_WIDTH),
-                     integer(GL_MAX_FRAMEBUFFER_HEIGHT), viewport[0], viewport[1]});
-}
-
 bool has_extension(std::string_view name) {
     for (int i = 0; i < integer(GL_NUM_EXTENSIONS); ++i) {
         if (name == reinterpret_cast<const char*>(
@@ -34,6 +25,15 @@ bool has_extension(std::string_view name) {
             return true;
     }
     return false;
+}
+
+namespace {
+
+int largest_render_target() {
+    GLint viewport[2] = {0, 0};
+    api().GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
+    return std::min({integer(GL_MAX_TEXTURE_SIZE), integer(GL_MAX_FRAMEBUFFER_WIDTH),
+                     integer(GL_MAX_FRAMEBUFFER_HEIGHT), viewport[0], viewport[1]});
 }
 
 // Returns the bytes of the GPU's memory; 0 if the driver does not tell. NVIDIA's drivers do, and
@@ -65,6 +65,24 @@ const char* advice(ContextKind kind) {
     unreachable_enum();
 }
 
+// Throws Error if the context has too few storage blocks for tables. shaders/projection/walk.comp
+// has the most; fragment shaders have the intervals of the transfer function alone.
+void require_blocks(const std::string& renderer) {
+    struct Limit {
+        const char* what;
+        int needed;
+        GLenum name;
+    };
+    constexpr Limit limits[]{
+        {"storage blocks in a compute shader", 9, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS},
+        {"storage blocks in a fragment shader", 1, GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS},
+        {"bindings of storage blocks", 10, GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS}};
+    for (const auto& [what, needed, name] : limits) {
+        if (const int most = integer(name); most < needed)
+            fail("LAMINA_RAYS: blocks needs {} {}, found {}: {}", needed, what, most, renderer);
+    }
+}
+
 // Sets how rays are marched, from the words of the environment variable LAMINA_RAYS, with which
 // tools/gpu_check compares the ways (docs/gpu.md).
 void set_rays(Capabilities& capabilities) {
@@ -81,11 +99,7 @@ void set_rays(Capabilities& capabilities) {
                      capabilities.renderer);
             capabilities.rays.queue = true;
         } else if (word == "blocks") {
-            constexpr int needed = 9;  // of shaders/projection/walk.comp, which has the most
-            const int most = integer(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS);
-            if (most < needed)
-                fail("LAMINA_RAYS: blocks needs {} storage blocks in a shader, found {}: {}",
-                     needed, most, capabilities.renderer);
+            require_blocks(capabilities.renderer);
             capabilities.rays.blocks = true;
         } else if (word == "sorted") {
             if (!has_extension("GL_ARB_shader_clock"))

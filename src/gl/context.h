@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <string_view>
 #include <thread>
 
 #include "gl/api.h"
@@ -110,5 +111,8 @@ class CurrentContext {
 
 // Returns the context of this module that is current in this thread, or null.
 Context* current_context();
+
+// Tells whether the current context has an extension, such as "GL_ARB_shader_clock".
+bool has_extension(std::string_view name);
 
 }  // namespace lamina::gl

@@ -144,15 +144,18 @@ Image Framebuffer::read_back(std::size_t target) const {
 }
 
 void Framebuffer::read_back(Image& image, std::size_t target) const {
-    reading_.take(color(target));
-    image.resize(width(), height());
-    const std::span<const float> rgba = reading_.values<float>();
     const std::size_t row = 4 * static_cast<std::size_t>(width());
-    parallel_for(height(), 16, [&](std::int64_t y) {
-        const auto from_bottom = static_cast<std::size_t>(height() - 1 - y);
-        std::ranges::copy(rgba.subspan(from_bottom * row, row),
-                          image.pixel(0, static_cast<int>(y)));
-    });
+    const int at_once = ReadBack::rows_at_once(row * sizeof(float));
+    for (int first = 0; first < height(); first += at_once) {
+        const int rows = std::min(at_once, height() - first);
+        reading_.take(color(target), first, rows);
+        image.resize(width(), height());
+        const std::span<const float> rgba = reading_.values<float>();
+        parallel_for(rows, 16, [&](std::int64_t y) {
+            std::ranges::copy(rgba.subspan(static_cast<std::size_t>(y) * row, row),
+                              image.pixel(0, height() - 1 - first - static_cast<int>(y)));
+        });
+    }
 }
 
 void draw_full_screen(const Program& program) {

@@ -10,7 +10,8 @@
 
 namespace lamina::gl {
 
-int WorkPace::next(int left) const {
+int WorkPace::next(int left) {
+    if (units_ == 0) since_waiting_ = {};
     int units = std::min(most_, left);
     if (!timed_) return units;
     // What comes first may show nothing, so the first frame goes ahead step by step.
@@ -33,7 +34,6 @@ void WorkPace::dispatched(int units) {
 }
 
 void WorkPace::end_frame() {
-    if (!timed_) return;
     wait();
     frame_ended();
 }
@@ -44,11 +44,14 @@ void WorkPace::wait() {
     begin_frame();
 }
 
-// The slowest units of the first frame are forgotten slowly, because frames have no others to show.
+// Slow units of a frame are forgotten slowly, because others of its dispatches may show nothing.
+// But a unit of a short dispatch may have waited more than it worked: if none can have been long,
+// the next ones may have twice the units.
 void WorkPace::took(int units, double ms) {
     if (!std::exchange(begun_, true)) return;
     last_units_ = units;
-    ms_per_unit_ = std::max(ms / units, known_ ? 0.9 * ms_per_unit_ : ms_per_unit_);
+    const double kept = ms < wanted_ms ? .5 : .9;
+    ms_per_unit_ = std::max(ms / units, known_ ? kept * ms_per_unit_ : ms_per_unit_);
 }
 
 }  // namespace lamina::gl

@@ -7,8 +7,8 @@ namespace lamina::gl {
 
 // Chooses how much work a GPU does in one dispatch, by the time that dispatches took before:
 // drivers end programs that take seconds, and a desktop stands still until a dispatch is done. Work
-// is counted in units: rows of a picture, or entries of lists. Software is given dispatches of a
-// fixed size, and needs no clock.
+// is counted in units: rows of a picture, or entries of each tile's list. Software is given
+// dispatches of a fixed size, and needs no clock.
 class WorkPace {
   public:
     // Most that a dispatch should take, in milliseconds. Half of that is aimed at, because the next
@@ -19,12 +19,13 @@ class WorkPace {
     // `timed`: false for dispatches of a fixed size.
     WorkPace(int most, int step, bool timed) : most_(most), step_(step), timed_(timed) {}
 
-    // Returns the number of units to do next, of `left` that remain.
-    int next(int left) const;
+    // Returns the number of units to do next, of `left` that remain. Must be called right before a
+    // dispatch: time does not count in which the host works and the GPU has nothing to do.
+    int next(int left);
 
     // Must be called around the dispatches of a frame and behind each. The GPU is waited for behind
     // each dispatch of the first frame, which begins with few units; later where most_ms have
-    // passed since the last wait; and at a frame's end.
+    // passed since the last wait; and at a frame's end, always.
     void begin_frame();
     void dispatched(int units);
     void end_frame();
@@ -45,7 +46,7 @@ class WorkPace {
     int last_units_ = 0;       // in the first frame
     double ms_per_unit_ = 0;   // of the slowest units so far
     int units_ = 0;            // since the last wait
-    Stopwatch since_waiting_;  // for the GPU
+    Stopwatch since_waiting_;  // for the GPU, or since it had nothing to do
 };
 
 }  // namespace lamina::gl

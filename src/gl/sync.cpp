@@ -5,6 +5,8 @@
 #include <cassert>
 
 #include <glad/gl.h>
+#include "base/error.h"
+#include "gl/context.h"
 #include "gl/texture.h"
 
 namespace lamina::gl {
@@ -18,11 +20,22 @@ void Fence::set() {
     sync_ = api().FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
+// Dispatches of a GPU take far less than a minute (WorkPace), those of software may take more.
 void Fence::wait() {
     if (sync_ == nullptr) return;
-    constexpr GLuint64 nanoseconds = 1'000'000'000;
-    while (api().ClientWaitSync(static_cast<GLsync>(sync_), GL_SYNC_FLUSH_COMMANDS_BIT,
-                                nanoseconds) == GL_TIMEOUT_EXPIRED) {
+    constexpr GLuint64 seconds = 60, nanoseconds = 1'000'000'000;
+    const Capabilities& capabilities = current_context()->capabilities();
+    GLenum found = GL_TIMEOUT_EXPIRED;
+    while (found == GL_TIMEOUT_EXPIRED) {
+        found = api().ClientWaitSync(static_cast<GLsync>(sync_), GL_SYNC_FLUSH_COMMANDS_BIT,
+                                     seconds * nanoseconds);
+        if (found == GL_TIMEOUT_EXPIRED && !capabilities.software)
+            fail("OpenGL: the GPU was not done within {} s; is it lost?: {}", seconds,
+                 capabilities.renderer);
+    }
+    if (found == GL_WAIT_FAILED) {
+        check("waiting for the GPU");
+        fail("OpenGL: waiting for the GPU failed: {}", capabilities.renderer);
     }
     api().DeleteSync(static_cast<GLsync>(sync_));
     sync_ = nullptr;
@@ -35,20 +48,34 @@ void Fence::end_step() {
 }
 
 void ReadBack::take(const Buffer& buffer) {
+    take(buffer, 0, buffer.byte_count());
+}
+
+void ReadBack::take(const Buffer& buffer, std::size_t byte_offset, std::size_t byte_count) {
+    assert(byte_offset + byte_count <= buffer.byte_count());
     if (buffer.mapped() != nullptr) {
-        taken_ = {buffer.mapped(), buffer.byte_count()};
+        taken_ = {buffer.mapped() + byte_offset, byte_count};
     } else {
-        reserve(buffer.byte_count());
-        api().CopyNamedBufferSubData(buffer.id(), copy_.id(), 0, 0,
-                                     static_cast<GLsizeiptr>(buffer.byte_count()));
+        reserve(byte_count);
+        api().CopyNamedBufferSubData(buffer.id(), copy_.id(), static_cast<GLintptr>(byte_offset), 0,
+                                     static_cast<GLsizeiptr>(byte_count));
     }
     end_take();
 }
 
+int ReadBack::rows_at_once(std::size_t row_bytes) {
+    constexpr std::size_t most_bytes = std::size_t{1} << 27;
+    return static_cast<int>(std::max(most_bytes / row_bytes, std::size_t{1}));
+}
+
 void ReadBack::take(const Texture& texture) {
+    take(texture, 0, texture.height());
+}
+
+void ReadBack::take(const Texture& texture, int first_row, int row_count) {
     assert(texture.format() != TextureFormat::rgba16i);
     const std::size_t row_bytes = 4 * sizeof(float) * static_cast<std::size_t>(texture.width());
-    reserve(row_bytes * static_cast<std::size_t>(texture.height()) *
+    reserve(row_bytes * static_cast<std::size_t>(row_count) *
             static_cast<std::size_t>(texture.depth()));
     // The transfer goes in bands of rows, because OpenGL counts its bytes in an int.
     const std::size_t band_bytes = std::size_t{1} << 26;
@@ -56,8 +83,8 @@ void ReadBack::take(const Texture& texture) {
     api().BindBuffer(GL_PIXEL_PACK_BUFFER, copy_.id());
     std::size_t place = 0;
     for (int z = 0; z < texture.depth(); ++z) {
-        for (int y = 0; y < texture.height(); y += band_rows) {
-            const int rows = std::min(band_rows, texture.height() - y);
+        for (int y = first_row; y < first_row + row_count; y += band_rows) {
+            const int rows = std::min(band_rows, first_row + row_count - y);
             const std::size_t bytes = row_bytes * static_cast<std::size_t>(rows);
             api().GetTextureSubImage(texture.id(), 0, 0, y, z, texture.width(), rows, 1, GL_RGBA,
                                      GL_FLOAT, static_cast<GLsizei>(bytes),

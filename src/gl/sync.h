@@ -27,6 +27,7 @@ class Fence {
 
     void set();  // places the fence at the current point
     // Waits until all commands before the fence are complete; returns at once if it was not set.
+    // Throws Error if that fails, or if a GPU is not done within a minute.
     void wait();
     // Ends a step of a frame: waits for the fence, which ended the step before, and places it here.
     // So OpenGL has one step to work on while the next one is prepared, and at most two to end.
@@ -44,9 +45,14 @@ class ReadBack {
     // Buffer::make_readable() is not copied if it is mapped, so that no command must write it until
     // it was looked at.
     void take(const Buffer& buffer);
+    void take(const Buffer& buffer, std::size_t byte_offset, std::size_t byte_count);
     // Begins to copy all texels as RGBA floats, x fastest, then y, then z; row 0 is the bottom one,
     // as in OpenGL. The format must not be rgba16i. Absent channels are 0, absent alpha is 1.
     void take(const Texture& texture);
+    void take(const Texture& texture, int first_row, int row_count);  // these rows alone
+    // Returns how many rows of a picture to take at once: memory that is mapped is kept from other
+    // programs, so that of large pictures 128 MiB must do.
+    static int rows_at_once(std::size_t row_bytes);
 
     // Waits for the last take() and returns what it copied, which stays until the next take().
     template <typename T>

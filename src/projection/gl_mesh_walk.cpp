@@ -121,10 +121,13 @@ PixelArea EntryTiles::area_of(const Triangle& face, const WindowView& window) {
 }
 
 void WalkPace::took(double ms, bool too_few) {
-    if (ms > most_ms)
+    if (!std::exchange(begun_, true)) return;
+    if (ms > most_ms) {
         rounds_ = std::max(rounds_ / 4, least_rounds);
-    else if (too_few && ms < most_ms / 8)
-        rounds_ = std::min(4 * rounds_, most_rounds);
+    } else if (too_few && ms < wanted_ms) {
+        const double longer = std::min(wanted_ms / ms, 4.0) * rounds_;
+        rounds_ = static_cast<int>(std::min<double>(longer, most_rounds));
+    }
 }
 
 void EntryTiles::list(const TetMesh& mesh, std::span<const TetFace> open_faces, const View& view,
@@ -165,6 +168,8 @@ GlMeshWalk::GlMeshWalk(const SceneMesh& mesh, const TransferFunction& transfer_f
     upload_tets();
     upload_points();
     upload_faces();
+    // Else the first dispatch would wait for what a GPU has yet to copy.
+    if (!gl::current_context()->capabilities().software) gl::api().Finish();
 }
 
 // Marks the tets that show nothing, and lists the faces by which rays enter. Rays leave the mesh at

@@ -36,18 +36,20 @@ struct EntryTiles : TileLists<std::uint32_t> {
 // drivers end programs that take seconds, and a desktop stands still until a dispatch is done.
 class WalkPace {
   public:
-    static constexpr double most_ms = 100;  // that a dispatch should take
+    // Most that a dispatch should take, and what is aimed at, because the next view may show more.
+    static constexpr double most_ms = 100, wanted_ms = most_ms / 2;
     static constexpr int first_rounds = 1024, least_rounds = 16;
 
     explicit WalkPace(int rounds) : rounds_(rounds) {}
     int rounds() const { return rounds_; }
     // A dispatch with rounds() took so long. `too_few`: it was the first of its rays in a frame,
     // and left some of them to the next one. Of later ones, which draw few rays, the time says
-    // nothing.
+    // nothing. The first of all is ignored: the program's first use may have cost more.
     void took(double ms, bool too_few);
 
   private:
     int rounds_;
+    bool begun_ = false;  // the first dispatch of all is done
 };
 
 // Returns the definitions of projection/walk.comp. `copies`: TetMesh::has_copies().

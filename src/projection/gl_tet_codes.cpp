@@ -203,7 +203,6 @@ void GlTetCodes::draw(const View& view, Progress* progress) {
     }
     timeline_.end();
     pace_->end_frame();
-    gl::api().Finish();
     gl::check("drawing tets on codes");
     drawing.count("tets", static_cast<double>(tets_drawn_));
     draw_ms_ = drawing.end();
@@ -314,8 +313,11 @@ void GlTetCodes::list(std::size_t first, std::size_t count) {
     entry_texels_.bind(entry_unit);
 }
 
+// Later dispatches draw the few tiles whose lists are longest. Their entries count by the share of
+// tiles that they draw, so that entries of all tiles are not taken to be as quick.
 void GlTetCodes::dispatch() {
-    auto left = static_cast<int>(lists_.tiles.size());  // tiles whose lists are not done
+    const auto tiles = static_cast<int>(lists_.tiles.size());
+    int left = tiles;  // whose lists are not done
     const auto length = [&](int tile) {
         const CodeLists::Tile& list = lists_.tiles[static_cast<std::size_t>(tile)];
         return static_cast<int>(list.end - list.first);
@@ -328,7 +330,7 @@ void GlTetCodes::dispatch() {
             program_->set("first_tile", first);
             program_->dispatch(std::min(tiles_of_dispatch, left - first));
         }
-        pace_->dispatched(entries);
+        pace_->dispatched(static_cast<int>(std::int64_t{entries} * left / tiles));
         begin += entries;
         while (left > 0 && length(left - 1) <= begin) --left;
     }

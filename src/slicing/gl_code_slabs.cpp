@@ -73,7 +73,6 @@ void GlCodeSlabs::draw(Progress* progress) {
         draw_slabs({0, plan_.slabs}, picture_, progress);
     }
     march_.end_frame();
-    pace_.end_frame();
 }
 
 void GlCodeSlabs::draw(const SampleSpan& span, const GlPixels& opacity, double depth_scale) {

@@ -29,6 +29,7 @@ class GlCodeSlabs : public GlMarchedPicture, private CodeLeaves {
     void set_view(const View& view, const Slabs& slabs) override;
     void clear() override { picture_.clear(); }
     void draw(Progress* progress) override;
+    void end_frame() override { pace_.end_frame(); }
     void read(Image& image) const override;
 
   private:

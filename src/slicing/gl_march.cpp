@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <numeric>
 #include <span>
 
@@ -35,14 +36,25 @@ TilesByCost::TilesByCost(int width, int height, int group)
 
 void TilesByCost::begin_frame() {
     listed_pixels_.reset();
-    if (read_) {
-        const auto costs = reading_.values<std::uint32_t>();
-        const std::uint64_t largest = std::max(std::ranges::max(costs), 1u);
-        for (std::size_t tile = 0; tile < costs.size(); ++tile)
-            cost_classes_[tile] =
-                static_cast<std::uint8_t>((largest - costs[tile]) * (classes - 1) / largest);
-    }
+    if (read_) classify(reading_.values<std::uint32_t>());
     costs_.clear();
+}
+
+// The largest costs are bounded by the median of drawn tiles, because one workgroup that had to
+// wait would put all others into one class.
+void TilesByCost::classify(std::span<const std::uint32_t> costs) {
+    constexpr std::uint64_t most_medians = 8;
+    std::vector<std::uint32_t> drawn;
+    std::ranges::copy_if(costs, std::back_inserter(drawn), [](std::uint32_t c) { return c > 0; });
+    if (drawn.empty()) return;
+    const auto median = drawn.begin() + std::ssize(drawn) / 2;
+    std::ranges::nth_element(drawn, median);
+    const std::uint64_t largest =
+        std::min<std::uint64_t>(std::ranges::max(drawn), most_medians * *median);
+    for (std::size_t tile = 0; tile < costs.size(); ++tile) {
+        const std::uint64_t below = largest - std::min<std::uint64_t>(costs[tile], largest);
+        cost_classes_[tile] = static_cast<std::uint8_t>(below * (classes - 1) / largest);
+    }
 }
 
 void TilesByCost::end_frame() {

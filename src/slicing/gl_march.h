@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/client.h"
@@ -32,6 +33,7 @@ class TilesByCost {
   private:
     static constexpr std::size_t classes = 64;  // of costs; tiles of one stay in their order
 
+    void classify(std::span<const std::uint32_t> costs);
     std::size_t class_of(const glm::ivec2& pixel) const;
     void list(const DrawnPixels& pixels);
 
@@ -101,6 +103,7 @@ class GlMarchedPicture {
     virtual void clear() = 0;
     // Draws the picture, which must be clear. Ctrl-C ends it between dispatches.
     virtual void draw(Progress* progress) = 0;
+    virtual void end_frame() = 0;  // waits for what was drawn
     virtual void read(Image& image) const = 0;
 };
 

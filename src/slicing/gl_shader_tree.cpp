@@ -173,7 +173,6 @@ void GlShaderTree::draw(Progress* progress) {
         evaluate(0, shape_.root(), 0);
     });
     march_.end_frame();
-    pace_->end_frame();
 }
 
 void GlShaderTree::read(Image& image) const {

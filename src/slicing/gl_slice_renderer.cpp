@@ -195,7 +195,11 @@ void GlSliceRenderer::draw(const View& world_view, Progress* progress) {
         draw_straight(progress);
     }
     timeline_.end();
-    gl::api().Finish();
+    if (marched_) {
+        marched_->end_frame();
+    } else {
+        gl::api().Finish();
+    }
     draw_ms_ = drawing.end();
     timeline_.collect();
     gl::check("drawing the slabs");

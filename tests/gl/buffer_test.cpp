@@ -12,6 +12,7 @@
 #include "gl/sync.h"
 #include "gl/texture.h"
 #include "gl_fixture.h"
+#include "support/expect_error.h"
 
 namespace lamina::gl {
 namespace {
@@ -124,6 +125,56 @@ TEST_P(ReadBackTest, KeepsWhatWasTakenFromABufferThatIsWrittenAgain) {
     EXPECT_TRUE(std::ranges::equal(reading.values<std::uint32_t>(), before));
     reading.take(storage);
     EXPECT_TRUE(std::ranges::equal(reading.values<std::uint32_t>(), after));
+}
+
+TEST_P(ReadBackTest, TakesPartsOfBuffersAndTextures) {
+    const std::array<std::uint32_t, 5> numbers{1, 2, 3, 4, 5};
+    ReadBack reading;
+    reading.take(Buffer{std::span(numbers)}, 4, 12);
+    EXPECT_TRUE(std::ranges::equal(reading.values<std::uint32_t>(), std::array{2u, 3u, 4u}));
+    const std::array<float, 6> columns_of_rows{1, 2, 3, 4, 5, 6};
+    Texture texture = Texture::make_2d(TextureFormat::r32f, 2, 3);
+    texture.upload({.width = 2, .height = 3}, std::span<const float>(columns_of_rows));
+    reading.take(texture, 1, 2);
+    const auto rgba = reading.values<float>();
+    ASSERT_EQ(rgba.size(), 16u);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(rgba[4 * i], columns_of_rows[2 + i]);
+}
+
+// Replaces the function of OpenGL that waits, during its lifetime.
+class Waiting {
+  public:
+    explicit Waiting(PFNGLCLIENTWAITSYNCPROC function)
+        : before_(std::exchange(changed().ClientWaitSync, function)) {}
+    ~Waiting() { changed().ClientWaitSync = before_; }
+
+  private:
+    static GladGLContext& changed() { return const_cast<GladGLContext&>(api()); }
+    PFNGLCLIENTWAITSYNCPROC before_;
+};
+
+TEST_P(ReadBackTest, AFenceThatCannotBeWaitedForIsAnError) {
+    Fence fence;
+    fence.set();
+    const Waiting fails([](GLsync, GLbitfield, GLuint64) -> GLenum { return GL_WAIT_FAILED; });
+    expect_error([&] { fence.wait(); }, {"OpenGL: waiting for the GPU failed: "});
+}
+
+// A picture of software may take more than a minute, a dispatch of a GPU may not.
+TEST_P(ReadBackTest, AFenceWaitsLongForSoftwareAlone) {
+    static int calls;
+    calls = 0;
+    const Waiting slow([](GLsync, GLbitfield, GLuint64) -> GLenum {
+        return ++calls < 4 ? GL_TIMEOUT_EXPIRED : GL_CONDITION_SATISFIED;
+    });
+    Fence fence;
+    fence.set();
+    if (capabilities().software) {
+        fence.wait();
+        EXPECT_EQ(calls, 4);
+    } else {
+        expect_error([&] { fence.wait(); }, {"OpenGL: the GPU was not done within 60 s"});
+    }
 }
 
 // A smaller thing is read into the memory of a larger one.

@@ -53,6 +53,22 @@ TEST_P(FramebufferTest, Fixed8HoldsRoundedCodes) {
     expect_codes(draw_ramp(TextureFormat::rgba8), 255);
 }
 
+// Its floats are more than are taken at once (128 MiB).
+TEST_P(FramebufferTest, LargeTargetsAreReadInParts) {
+    const int columns = 4096, rows = 2100;
+    const Framebuffer target(Texture::make_2d(TextureFormat::r16, columns, rows));
+    target.bind();
+    draw_full_screen(full_screen_program(R"(#version 450 core
+        out vec4 color;
+        void main() { color = vec4(floor(gl_FragCoord.y) / 65535.0); }
+    )"));
+    const Image image = target.read_back();
+    for (int row = 0; row < rows; ++row) {
+        const long found = std::lround(image.pixel(columns - 1, row)[0] * 65535.0f);
+        ASSERT_EQ(found, rows - 1 - row);
+    }
+}
+
 TEST_P(FramebufferTest, Fixed16HoldsRoundedCodes) {
     expect_codes(draw_ramp(TextureFormat::rgba16), 65535);
 }

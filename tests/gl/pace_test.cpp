@@ -2,7 +2,9 @@
 #include "gl/pace.h"
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -40,7 +42,7 @@ std::vector<double> times_of_frame(WorkPace& pace, int height,
 }
 
 TEST(WorkPace, SoftwareGetsDispatchesOfAFixedSize) {
-    const WorkPace pace(48, 8, false);
+    WorkPace pace(48, 8, false);
     EXPECT_FALSE(pace.wants_time(0));
     EXPECT_FALSE(pace.wants_time(1e6));
     EXPECT_EQ(pace.next(600), 48);
@@ -86,7 +88,32 @@ TEST(WorkPace, DispatchesGrowAgainAfterASlowView) {
     EXPECT_LE(std::ranges::max(times), WorkPace::wanted_ms);
 }
 
+// As it is where dispatches are so small that a GPU waits for them more than it works.
+TEST(WorkPace, ShortFramesForgetSlowUnitsSoon) {
+    WorkPace pace(600, 8, true);
+    times_of_frame(pace, 600, [](int) { return 10.0; });
+    const auto fast = [](int) { return .02; };
+    // From 10 ms to 50 / 600 is less than 2^7.
+    for (int frame = 0; frame < 7; ++frame) times_of_frame(pace, 600, fast);
+    EXPECT_EQ(times_of_frame(pace, 600, fast).size(), 1u);
+}
+
 using WorkPaceInAContext = GlTest;
+
+// Rows would seem to take 7.5 ms each, so that no dispatch had more than 8.
+TEST_F(WorkPaceInAContext, CountsNoTimeInWhichTheHostWorks) {
+    WorkPace pace(100, 8, true);
+    std::size_t count = 0;
+    pace.begin_frame();
+    for (int left = 100; left > 0; ++count) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(60));
+        const int units = pace.next(left);
+        pace.dispatched(units);
+        left -= units;
+    }
+    pace.end_frame();
+    EXPECT_LT(count, 13u);  // 100 / 8
+}
 
 // The first dispatch is not counted, so that the second has no more rows. How many the others have
 // depends on the clock.

@@ -32,7 +32,19 @@ TEST(WalkPace, HoldsWholeRaysUnlessTheyTakeLong) {
         }
         EXPECT_LE(ms, WalkPace::most_ms) << ms_per_round;
         EXPECT_EQ(pace.rounds() >= needed, ms_per_round == 1e-4);
+        // Those that last 12.5 ms or more grow, too.
+        if (ms_per_round == .01) {
+            EXPECT_GT(ms, .9 * WalkPace::wanted_ms);
+        }
     }
+}
+
+TEST(WalkPace, AProgramsFirstUseMakesNoRaysShort) {
+    WalkPace pace(WalkPace::first_rounds);
+    pace.took(300, true);
+    EXPECT_EQ(pace.rounds(), WalkPace::first_rounds);
+    pace.took(300, true);
+    EXPECT_LT(pace.rounds(), WalkPace::first_rounds);
 }
 
 class MeshWalk : public gl::EveryContextTest {
