@@ -63,11 +63,6 @@ std::vector<OpticsPoint> ends_of_pieces(const TransferFunction& transfer_functio
     return ends;
 }
 
-bool has_steps(const TransferFunction& transfer_function) {
-    return std::ranges::adjacent_find(transfer_function.knots(), {}, &TransferKnot::value) !=
-           transfer_function.knots().end();
-}
-
 // Largest changes between two scalars, of what a ray of a given length shows.
 struct OpticsChange {
     double extinction = 0;  // per world unit
@@ -267,13 +262,11 @@ struct SlicePlanner {
         const TransferFunction& transfer_function = *scene.transfer_function;
         const ValueRange window = exact_range(transfer_function, facts.range, facts.type);
         const double rounding = scalar_rounding * (window.hi - window.lo);
-        ValueRange shown = facts.range;
-        // If there are steps, scalars stay away from the ends of their cell's range by 2^-23 of the
-        // window, except those of constant cells, which are exact.
-        if (has_steps(transfer_function) && shown.hi - shown.lo > 2 * rounding) {
-            shown.lo += rounding / 2;
-            shown.hi -= rounding / 2;
-        }
+        // Steps at the least and at the largest sample count: rays may run in a face between equal
+        // samples.
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const ValueRange shown{std::nextafter(facts.range.lo, -infinity),
+                               std::nextafter(facts.range.hi, infinity)};
         const double length =
             std::min(box_diagonal(facts.grid),
                      (facts.far_depth - facts.near_depth) * facts.max_length_per_depth);

@@ -86,19 +86,26 @@ TEST(SurfaceError, CountsJumpsOfColor) {
     EXPECT_GT(claim_at(1e-4).value, 255 * 20 * 1e-4);  // the box is 20 deep
 }
 
-// Smooth transfer functions, and steps that no ray can cross, leave the usual error.
+// A block of the largest value, in whose faces rays run: the later side of a step at that value
+// shows in the block and in its faces, but a rounding beside them would not meet it.
+TEST(SurfaceError, CountsStepsAtTheEndsOfTheSamples) {
+    const auto inside = [](double i) { return i >= 2 && i <= 6; };
+    const Volume block = test::volume_of<std::uint8_t>(
+        test::grid_of({9, 9, 9}, Centering::node), [&](double x, double y, double z) {
+            return inside(x) && inside(y) && inside(z) ? 255. : 0.;
+        });
+    for (const double value : {0., 255.}) {
+        const Scene scene = along_surface(5.5, jump(value, 4));
+        EXPECT_EQ(claimed(block, scene).kind, ErrorKind::unknown) << value;
+    }
+}
+
 TEST(SurfaceError, IsSmallWithoutSteps) {
-    const Volume volume = ramp(0, .1);
-    const auto claim_of = [&](const TransferFunction& transfer_function) {
-        return claimed(volume, along_surface(3, transfer_function)).value;
-    };
-    const double usual = exact_segment_error + 1. / 512;  // and where rays end early
-    EXPECT_LE(claim_of(TransferFunction::linear(
-                  {knot(.2, {1, 0, 0}, 0), knot(.5, {0, 1, 0}, .4), knot(.6, {0, 0, 1}, 0)})),
-              usual);
-    EXPECT_LE(claim_of(TransferFunction::linear({knot(0, {1, 0, 0}, 0), knot(0, {1, 0, 0}, .1),
-                                                 knot(1, {0, 1, 0}, .2), knot(1, {0, 1, 0}, 9)})),
-              usual);
+    const Scene scene =
+        along_surface(3, TransferFunction::linear({knot(.2, {1, 0, 0}, 0), knot(.5, {0, 1, 0}, .4),
+                                                   knot(.6, {0, 0, 1}, 0)}));
+    // And where rays end early.
+    EXPECT_LE(claimed(ramp(0, .1), scene).value, exact_segment_error + 1. / 512);
 }
 
 }  // namespace
