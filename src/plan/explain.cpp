@@ -25,16 +25,21 @@ std::string line(const char* what, const std::string& value) {
     return fmt::format("  {:<14} {}\n", what, printable(value));
 }
 
-// Returns the error of a plan as text. If only rays along surfaces may err by more, it tells so.
+// Returns the error of a plan as text. If rays along surfaces may err by more, it tells so.
 std::string error_text(const Plan& plan) {
-    if (plan.method != Method::slice || !std::isinf(plan.slice.surface_error))
-        return text_of(plan.error());
+    if (plan.method != Method::slice || plan.slice.ramp_error == 0) return text_of(plan.error());
     SlicePlan others = plan.slice;
     others.surface_error = 0;
+    const std::string error = text_of(others.error());
+    if (std::isinf(plan.slice.surface_error))
+        return fmt::format(
+            "unknown of rays that run along a surface at which the transfer function jumps or is "
+            "very steep; of all others {}",
+            error);
     return fmt::format(
-        "unknown of rays that run along a surface at which the transfer function jumps or is very "
-        "steep; of all others {}",
-        text_of(others.error()));
+        "{}; at most {:.3g} / 255 more of rays that run along a surface at which the transfer "
+        "function is steep",
+        text_of(plan.error()), plan.slice.ramp_error);
 }
 
 std::string with_reason(const char* name, const std::string& reason) {

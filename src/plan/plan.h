@@ -233,9 +233,12 @@ struct SliceRemarks {
     // proportion to the brightest colour above 1.
     double segment_error = exact_segment_error;
     // Bound on what roundings of the scalar may change of a ray of exact segments that runs along a
-    // surface at which the transfer function jumps or is very steep. 0: less than segment_error,
-    // which counts it. Infinite: more than max_error leaves, so that no error is stated.
+    // surface at which the transfer function jumps. 0: less than segment_error, which counts it.
+    // Infinite: more than max_error leaves, so that no error is stated.
     double surface_error = 0;
+    // Bound on what they may change of a ray along any surface, in ramps, too, if that is more than
+    // max_error leaves; else 0. The picture's error does not count it (docs/precision.md, "Jumps").
+    double ramp_error = 0;
 
     friend bool operator==(const SliceRemarks&, const SliceRemarks&) = default;
 };

@@ -45,6 +45,10 @@ constexpr double curve_share = 0.25;  // share of max_error that curves may cost
 
 constexpr std::uint64_t gradient_bytes = 8;  // bytes a sample (slicing/gradient_map.h)
 
+// Width, in roundings, up to which a ramp of the transfer function counts as a jump: on wider ones
+// a rounding moves a scalar by less than a thousandth of the ramp.
+constexpr double steep_width = 1024;
+
 // The optics at a scalar. At a step there are two points of one scalar.
 struct OpticsPoint {
     double value;
@@ -61,11 +65,6 @@ std::vector<OpticsPoint> ends_of_pieces(const TransferFunction& transfer_functio
                               ends.push_back({piece.to, piece.at_to});
                           });
     return ends;
-}
-
-bool has_steps(const TransferFunction& transfer_function) {
-    return std::ranges::adjacent_find(transfer_function.knots(), {}, &TransferKnot::value) !=
-           transfer_function.knots().end();
 }
 
 // Largest changes between two scalars, of what a ray of a given length shows.
@@ -85,22 +84,32 @@ struct OpticsChange {
         extinction = std::max(extinction, other.extinction);
         color = std::max(color, other.color);
     }
+    OpticsChange operator+(const OpticsChange& other) const {
+        return {extinction + other.extinction, color + other.color};
+    }
 };
 
-// Returns bounds on the changes between scalars that are at most `apart` apart: within pieces that
-// are wider, and from end to end of narrower ones.
-OpticsChange largest_change(const std::vector<OpticsPoint>& ends, double apart, double length) {
-    OpticsChange slopes, jumps;
+// Bounds on the changes between scalars that a rounding may exchange.
+struct OpticsChanges {
+    OpticsChange steps;  // at jumps, and on pieces that are no wider than steep_width roundings
+    OpticsChange ramps;  // on wider pieces
+};
+
+OpticsChanges largest_changes(const std::vector<OpticsPoint>& ends, double rounding,
+                              double length) {
+    OpticsChange slopes, jumps, ramps;
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
         const double width = ends[i + 1].value - ends[i].value;
-        if (width > apart) {
-            slopes.enlarge(
-                OpticsChange::between(ends[i].optics, ends[i + 1].optics, length, apart / width));
+        if (width > rounding) {
+            OpticsChange& found = width > steep_width * rounding ? ramps : slopes;
+            found.enlarge(OpticsChange::between(ends[i].optics, ends[i + 1].optics, length,
+                                                rounding / width));
         }
-        for (std::size_t j = i + 1; j < ends.size() && ends[j].value - ends[i].value <= apart; ++j)
+        for (std::size_t j = i + 1; j < ends.size() && ends[j].value - ends[i].value <= rounding;
+             ++j)
             jumps.enlarge(OpticsChange::between(ends[i].optics, ends[j].optics, length, 1));
     }
-    return {slopes.extinction + jumps.extinction, slopes.color + jumps.color};
+    return {slopes + jumps, ramps};
 }
 
 // Decides how a scene is sliced. make() has the order of its choices, each of which depends on
@@ -151,7 +160,7 @@ struct SlicePlanner {
             (slice.sampling != VolumeSampling::none && facts.type == SampleType::float32);
         if (slice.integrates_cells()) {
             slice.curve_error = choose_curves();
-            slice.surface_error = surface_error(slice.found_error());
+            choose_surface_error(slice);
         }
 
         slice.single_color = choose_single_color();
@@ -260,30 +269,42 @@ struct SlicePlanner {
         return taken ? error : 0;
     }
 
-    // Returns SliceRemarks::surface_error (docs/numerics.md, section 9.3). A field that is constant
-    // in each voxel has no rounding. `others`: the error of all other rays, in 1/255.
-    double surface_error(double others) const {
-        if (facts.grid.lookup == VolumeLookup::nearest) return 0;
+    // Sets the errors of rays along surfaces (docs/numerics.md, section 9.3). A field that is
+    // constant in each voxel has no rounding.
+    void choose_surface_error(SlicePlan& slice) const {
+        if (facts.grid.lookup == VolumeLookup::nearest) return;
         const TransferFunction& transfer_function = *scene.transfer_function;
         const ValueRange window = exact_range(transfer_function, facts.range, facts.type);
         const double rounding = scalar_rounding * (window.hi - window.lo);
-        ValueRange shown = facts.range;
-        // If there are steps, scalars stay away from the ends of their cell's range by 2^-23 of the
-        // window, except those of constant cells, which are exact.
-        if (has_steps(transfer_function) && shown.hi - shown.lo > 2 * rounding) {
-            shown.lo += rounding / 2;
-            shown.hi -= rounding / 2;
-        }
+        // Steps at the least and at the largest sample count: rays may run in a face between equal
+        // samples.
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const ValueRange shown{std::nextafter(facts.range.lo, -infinity),
+                               std::nextafter(facts.range.hi, infinity)};
         const double length =
             std::min(box_diagonal(facts.grid),
                      (facts.far_depth - facts.near_depth) * facts.max_length_per_depth);
-        const OpticsChange change =
-            largest_change(ends_of_pieces(transfer_function, shown), rounding, length);
+        const OpticsChanges changes =
+            largest_changes(ends_of_pieces(transfer_function, shown), rounding, length);
+
         const double brightest = std::max(max_color, 1.0);
-        const double share = std::min(1.0, -std::expm1(-change.extinction * length) + change.color);
-        const double error = 255 * brightest * share;
-        if (error <= exact_segment_error * brightest) return 0;
-        return others + error <= scene.max_error ? error : std::numeric_limits<double>::infinity();
+        const double counted = exact_segment_error * brightest;  // by segment_error
+        const auto error_of = [&](const OpticsChange& change) {
+            const double share =
+                std::min(1.0, -std::expm1(-change.extinction * length) + change.color);
+            return 255 * brightest * share;
+        };
+        const double steps = error_of(changes.steps);
+        const double all = error_of(changes.steps + changes.ramps);
+        const auto fits = [&](double error) {
+            return slice.found_error() + error <= scene.max_error;
+        };
+        if (all <= counted || fits(all)) {
+            slice.surface_error = all <= counted ? 0 : all;
+            return;
+        }
+        slice.ramp_error = all;
+        if (steps > counted) slice.surface_error = fits(steps) ? steps : infinity;
     }
 
     bool choose_single_color() {

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The error that exact segments claim of rays that run along a surface at which the transfer
 // function jumps: there a rounding of the scalar decides on which side of it a whole ray is.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
 #include "cpu_fixture.h"
 #include "exact_fixture.h"
+#include "plan/plan.h"
 
 namespace lamina {
 namespace {
@@ -86,19 +91,45 @@ TEST(SurfaceError, CountsJumpsOfColor) {
     EXPECT_GT(claim_at(1e-4).value, 255 * 20 * 1e-4);  // the box is 20 deep
 }
 
-// Smooth transfer functions, and steps that no ray can cross, leave the usual error.
-TEST(SurfaceError, IsSmallWithoutSteps) {
+// A block of the largest value, in whose faces rays run: the later side of a step at that value
+// shows in the block and in its faces, but a rounding beside them would not meet it.
+TEST(SurfaceError, CountsStepsAtTheEndsOfTheSamples) {
+    const auto inside = [](double i) { return i >= 2 && i <= 6; };
+    const Volume block = test::volume_of<std::uint8_t>(
+        test::grid_of({9, 9, 9}, Centering::node), [&](double x, double y, double z) {
+            return inside(x) && inside(y) && inside(z) ? 255. : 0.;
+        });
+    for (const double value : {0., 255.}) {
+        const Scene scene = along_surface(5.5, jump(value, 4));
+        EXPECT_EQ(claimed(block, scene).kind, ErrorKind::unknown) << value;
+    }
+}
+
+// A steep ramp may change a ray along its foot by more than max_error, but it is no jump: what is
+// stated holds of all other rays, and --explain has the bound of these.
+TEST(SurfaceError, OfRampsIsSaidBesideThatOfAllOtherRays) {
     const Volume volume = ramp(0, .1);
-    const auto claim_of = [&](const TransferFunction& transfer_function) {
-        return claimed(volume, along_surface(3, transfer_function)).value;
-    };
-    const double usual = exact_segment_error + 1. / 512;  // and where rays end early
-    EXPECT_LE(claim_of(TransferFunction::linear(
-                  {knot(.2, {1, 0, 0}, 0), knot(.5, {0, 1, 0}, .4), knot(.6, {0, 0, 1}, 0)})),
-              usual);
-    EXPECT_LE(claim_of(TransferFunction::linear({knot(0, {1, 0, 0}, 0), knot(0, {1, 0, 0}, .1),
-                                                 knot(1, {0, 1, 0}, .2), knot(1, {0, 1, 0}, 9)})),
-              usual);
+    const Scene scene = along_surface(
+        3, TransferFunction::linear({knot(.35, {1, 1, 1}, 0), knot(.85, {1, 1, 1}, 2e4)}));
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    const Plan plan = make_plan(scene, facts, cpu_capabilities(), {});
+    EXPECT_EQ(plan.error().kind, ErrorKind::derived);
+    EXPECT_LE(plan.error().value, exact_segment_error + 1. / 512);
+    // 255 (1 - exp(-dt l)) with dt = 2e4 2^-22 / .5, as the window is 1 wide, and l of the box of
+    // 10 by 4 by 20 at most.
+    const double change = 2e4 * 0x1p-22 / .5 * std::hypot(10, 4, 20);
+    EXPECT_GT(plan.slice.ramp_error, scene.max_error);
+    EXPECT_LE(plan.slice.ramp_error, -255 * std::expm1(-change));
+    EXPECT_THAT(explain(plan, facts, cpu_capabilities()),
+                testing::HasSubstr("more of rays that run along a surface"));
+}
+
+TEST(SurfaceError, IsSmallWithoutSteps) {
+    const Scene scene =
+        along_surface(3, TransferFunction::linear({knot(.2, {1, 0, 0}, 0), knot(.5, {0, 1, 0}, .4),
+                                                   knot(.6, {0, 0, 1}, 0)}));
+    // And where rays end early.
+    EXPECT_LE(claimed(ramp(0, .1), scene).value, exact_segment_error + 1. / 512);
 }
 
 }  // namespace
