@@ -65,8 +65,8 @@ class Picture:
     @property
     def error(self) -> float | None:
         """The largest error of the picture, in 1/255, of any pixel and channel; ``None`` if it is unknown: the scene
-        states something that nothing was measured of (triangles, say), tets of the mesh overlap, or more than 8 was found.
-        ``error_kind`` says how it is known.
+        states something that nothing was measured of (triangles, say), tets of the mesh overlap and are not ordered,
+        or more than 8 was found. ``error_kind`` says how it is known.
         """
         return self._drawn.error
 
