@@ -274,7 +274,7 @@ Warnings plan_warnings(const Scene& scene, const MeshOverlap& overlap) {
             "{}: {} tets overlap others: {}", name_of_mesh(scene), overlap.tets,
             orders_overlaps(scene, overlap) ? "a ray shows them one after the other, whole, in the "
                                               "order in which it enters them"
-                                            : "they are not drawn in the order in which a ray "
+                                            : "they may not be drawn in the order in which a ray "
                                               "enters them, and the error of a picture is unknown "
                                               "where a ray meets them"));
     }
