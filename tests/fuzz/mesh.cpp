@@ -33,7 +33,7 @@ void check_sizes(const MeshData& data) {
 
 void check_orders(const TetMesh& mesh, const glm::dvec3& outside) {
     const glm::dvec3 inside = mesh.points()[static_cast<std::size_t>(mesh.tets()[0][0])];
-    const auto overlaps = overlapping_pairs(mesh);
+    const auto overlaps = overlapping_pairs(mesh, 50'000);
     for (const OrderMethod method :
          {OrderMethod::mpvo, OrderMethod::exact, OrderMethod::centroid, OrderMethod::none}) {
         VisibilityOrder order(mesh, method,
