@@ -14,7 +14,7 @@ namespace lamina {
 
 // How the error of a picture was found.
 enum class ErrorKind {
-    unknown,  // nothing was measured for a setting of the scene, or the mesh overlaps itself
+    unknown,  // nothing was measured for a setting of the scene, or tets overlap and have no order
     derived,  // a bound: no pixel is worse
     trials,   // measured on rays of the view that were also traced, or drawn with finer settings
     sampled   // measured on rays of the view and on tets that are likely to have the largest errors

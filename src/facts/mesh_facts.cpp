@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
+#include <glm/glm.hpp>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -16,6 +16,9 @@
 namespace lamina {
 
 namespace {
+
+// Largest number of overlapping pairs that are ordered: some 400 tets that all overlap.
+constexpr std::size_t most_ordered_pairs = 50'000;
 
 void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const TetPieces& pieces,
                                MeshFacts& facts) {
@@ -105,11 +108,39 @@ void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
     }
 }
 
+// Returns the pixels of the smallest rectangle around a tet; all if it reaches behind the eye.
+double pixels_around(const TetMesh& mesh, std::int32_t tet, const WindowView& window) {
+    const glm::dvec2 size(window.view().width, window.view().height);
+    glm::dvec2 low = size, high(0);
+    for (const std::int32_t corner : mesh.tets()[static_cast<std::size_t>(tet)]) {
+        const glm::dvec3 seen = window.see(mesh.points()[static_cast<std::size_t>(corner)]);
+        if (window.perspective() && !(seen.z > 0)) return size.x * size.y;
+        const glm::dvec2 place = window.to_window(seen);
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
+    const glm::dvec2 extent = glm::max(glm::min(high, size) - glm::max(low, glm::dvec2(0)), 0.0);
+    return extent.x * extent.y;
+}
+
+// Returns MeshOverlap::covered_pixels.
+std::int64_t covered_pixels(const TetMesh& mesh, std::span<const TetPair> pairs, const View& view) {
+    std::vector<std::int32_t> tets;
+    for (const auto& [a, b] : pairs) tets.insert(tets.end(), {a, b});
+    std::sort(tets.begin(), tets.end());
+    tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
+    const WindowView window(view);
+    double sum = 0;
+    for (const std::int32_t tet : tets) sum += pixels_around(mesh, tet, window);
+    return static_cast<std::int64_t>(sum);
+}
+
 }  // namespace
 
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
     MeshFacts facts = measure_data(scene, mesh);
-    if (is_right_order(scene.project.order)) facts.overlap = measure_overlap(mesh, facts.convexity);
+    if (is_right_order(scene.project.order))
+        facts.overlap = measure_overlap(mesh, facts.convexity, !half_spaces(scene.clip).empty());
     measure_view(scene, mesh, facts);
     measure_rays(scene, mesh, facts);
     return facts;
@@ -136,14 +167,10 @@ MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh) {
     return facts;
 }
 
-// Largest number of overlapping pairs that are ordered: 500 tets that all overlap, in a picture of
-// 800 x 600, take some 15 s and 1 GB, which grows with the pixels and with the pairs.
-constexpr std::size_t most_ordered_pairs = 50'000;
-
-MeshOverlap measure_overlap(const SceneMesh& mesh, Convexity convexity) {
+MeshOverlap measure_overlap(const SceneMesh& mesh, Convexity convexity, bool clipped) {
     MeshOverlap found;
     if (convexity == Convexity::none) found.tets = count_overlapping_tets(mesh.mesh);
-    if (found.tets == 0) return found;
+    if (found.tets == 0 || clipped) return found;
     if (auto pairs = overlapping_pairs(mesh.mesh, most_ordered_pairs))
         found.pairs = std::make_shared<const std::vector<TetPair>>(std::move(*pairs));
     return found;
@@ -160,6 +187,8 @@ void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
         box_corners(mesh.mesh.bounds().min, mesh.mesh.bounds().max), [&](const glm::dvec3& corner) {
             return glm::dot(corner - view.eye, view.forward) > margin * facts.diagonal;
         });
+    facts.overlap.covered_pixels =
+        facts.overlap.pairs ? covered_pixels(mesh.mesh, *facts.overlap.pairs, view) : 0;
 }
 
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {

@@ -17,8 +17,9 @@ namespace {
 
 constexpr std::int64_t tets_per_task = 256;
 
-// Limit on the pairs examined, per tet on average. A tet of a Delaunay mesh meets the boxes of 80.
-constexpr std::int64_t most_tests_per_tet = 1000;
+// Limit on the pairs examined, per tet on average, and for a mesh of few tets that all overlap. A
+// tet of a Delaunay mesh meets the boxes of 80, and each pair is examined once.
+constexpr std::int64_t most_tests_per_tet = 200, most_tests_of_few = 1'000'000;
 
 // Distance, as a share of the far end's, within which two places of entry are one (tie_distance()).
 constexpr double tie_share = 1e-10;
@@ -126,7 +127,7 @@ std::optional<std::vector<TetPair>> overlapping_pairs(const TetMesh& mesh, std::
 
     const std::int64_t tasks = (count + tets_per_task - 1) / tets_per_task;
     std::vector<std::vector<TetPair>> found(static_cast<std::size_t>(tasks));
-    std::atomic<std::int64_t> left{most_tests_per_tet * count};
+    std::atomic<std::int64_t> left{std::max(most_tests_of_few, most_tests_per_tet * count)};
     std::atomic<std::size_t> total{0};
     parallel_for(tasks, 1, [&](std::int64_t task) {
         const std::int64_t end = std::min(count, (task + 1) * tets_per_task);

@@ -20,8 +20,7 @@ using TetPair = std::pair<std::int32_t, std::int32_t>;
 // Lists all pairs of tets whose insides have a point in common, ascending. Pairs that touch up to
 // rounding may be listed, too; neighbours and tets without volume never are. Returns nothing if
 // there are more than `most` pairs, or more candidates than can be examined. Parallel.
-std::optional<std::vector<TetPair>> overlapping_pairs(const TetMesh& mesh,
-                                                      std::size_t most = 300'000);
+std::optional<std::vector<TetPair>> overlapping_pairs(const TetMesh& mesh, std::size_t most);
 
 // The rule by which a ray composites the segments of overlapping tets, as whole segments one after
 // the other: by ascending parameter at which it enters the tet, at `start` if the tet begins before

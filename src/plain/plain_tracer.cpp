@@ -183,11 +183,8 @@ PlainMesh plain_mesh(const Scene& scene, const SceneMesh& data) {
     const auto& [low, high] = data.mesh.bounds();
     const bool perspective = view.projection == Projection::perspective;
     const glm::dvec3 far = glm::max(glm::abs(low - view.eye), glm::abs(high - view.eye));
-    PlainMesh mesh{data.mesh.points(),
-                   {},
-                   {},
-                   perspective ? 0 : -INFINITY,
-                   1e-10 * glm::length(perspective ? far : high - low)};
+    const double tie = 1e-10 * glm::length(perspective ? far : high - low);
+    PlainMesh mesh{data.mesh.points(), {}, {}, perspective ? 0 : -INFINITY, tie};
     for (const double scalar : data.scalar.values) mesh.fields.emplace_back(0, 0, 0, scalar);
     const std::vector<std::int32_t> firsts = equal_points(data.mesh, data.scalar.values);
     const auto first = [&](std::int32_t i) { return firsts.empty() ? i : firsts[i]; };

@@ -152,7 +152,7 @@ struct ProjectPlanner {
         choose_what_is_drawn();
         plan.plain = choose_precision(plan.geometry == ProjectGeometry::triangles);
         plan.solve_rings =
-            is_right_order(settings.order) ||
+            (is_right_order(settings.order) && !orders_slowly(settings.order, facts.overlap)) ||
             // `auto` takes `mpvo` for a convex mesh, for which it is right.
             (settings.order == ProjectOrder::mpvo && facts.convexity != Convexity::none);
         plan.visibility = choose_visibility();
@@ -360,8 +360,8 @@ struct ProjectPlanner {
             plan.geometry == ProjectGeometry::silhouette &&
             (plan.orthographic || plan.interpolation == Interpolation::perspective) &&
             plan.thickness == Thickness::exact;
-        const bool sorted =
-            plan.single_color || (plan.solve_rings && orders_overlaps(scene, facts.overlap));
+        const bool sorted = plan.single_color ||
+                            (plan.solve_rings && orders_overlaps(settings.order, facts.overlap));
         const bool stored = plan.target == Target::float32 && plan.tree.empty();
         if (!integrated || !straight || !sorted || !stored) return {};
         const MeshFacts::TrialError& found = plan.trial_error;

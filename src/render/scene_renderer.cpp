@@ -40,7 +40,6 @@ std::vector<std::string> open_keys(const Scene& scene) {
     }
     if (scene.method == Method::project) {
         const ProjectSettings& project = scene.project;
-        if (!project.tree) add("render.project.order", project.order);
         add("render.project.geometry", project.geometry);
         if (project.tree) add("render.project.tree", *project.tree);
     }
@@ -266,8 +265,9 @@ class ProjectDrawing : public Drawing {
         facts_ = lamina::measure_data(scene, *mesh_);
         facts_.clipped_away = clipped_away_;
         if (!is_right_order(scene.project.order)) return;
-        if (!overlap_) overlap_ = measure_overlap(*mesh_, facts_.convexity);
-        facts_.overlap = *overlap_;
+        std::optional<MeshOverlap>& overlap = mesh_ == whole_ ? whole_overlap_ : overlap_;
+        if (!overlap) overlap = measure_overlap(*mesh_, facts_.convexity, mesh_ != whole_);
+        facts_.overlap = *overlap;
     }
 
     // Trial rays choose between a table whose nodes lie on the transfer function's points, and
@@ -293,11 +293,12 @@ class ProjectDrawing : public Drawing {
     }
 
     // If the order is automatic and there is a tree, the order stays automatic: leaves of a tree
-    // take tets from all over the mesh.
+    // take tets from all over the mesh. So it does if tets overlap: each view decides anew whether
+    // these can be ordered (orders_slowly()).
     Resolved resolve(Scene scene, const Plan& plan) const override {
         const ProjectPlan& project = plan.project;
         ProjectSettings& settings = scene.project;
-        if (settings.order.is_automatic() && !settings.tree)
+        if (settings.order.is_automatic() && !settings.tree && facts_.overlap.tets == 0)
             settings.order = order_of(project.visibility);
         settings.geometry = project.geometry;
         if (project.source == SegmentSource::analytic) settings.coloring = Coloring::analytic;
@@ -361,8 +362,9 @@ class ProjectDrawing : public Drawing {
     Clip clip_;
     bool lit_ = false;
     bool clipped_away_ = false;
-    std::optional<MeshOverlap> overlap_;     // of mesh_, once it is measured
-    std::optional<Warnings> data_warnings_;  // of whole_, once they are asked for
+    std::optional<MeshOverlap> overlap_;        // of mesh_ if it is clipped, once it is measured
+    std::optional<MeshOverlap> whole_overlap_;  // of whole_, which has pairs
+    std::optional<Warnings> data_warnings_;     // of whole_, once they are asked for
     MeshFacts facts_;
     std::unique_ptr<ProjectRenderer> renderer_;
 };

@@ -30,8 +30,8 @@ struct PictureShare {
 };
 
 // Returns the keys that are automatic and that the scene's method needs. Tables are not among them:
-// they are chosen with each view. Nor is the order of tets if the scene has a tree: leaves take
-// tets from all over the mesh, an order that no value of the key describes.
+// they are chosen with each view. Nor is the order of tets, which stays automatic if the scene has
+// a tree, whose leaves take tets from all over the mesh, or if tets overlap (orders_slowly()).
 std::vector<std::string> open_keys(const Scene& scene);
 
 // A scene in which everything that its method needs is chosen: open_keys() is empty. Only a Drawing

@@ -24,7 +24,7 @@ std::size_t after(std::size_t corner) {
 // A triangle cut by three planes has at most six corners.
 struct Polygon {
     // Relative to the eye; if it is at infinity, to any common origin.
-    std::array<glm::dvec3, 6> corners;
+    std::array<glm::dvec3, 7> corners;
     std::size_t count = 0;
     void add(const glm::dvec3& corner) {
         if (count < corners.size()) corners[count++] = corner;
@@ -351,9 +351,17 @@ double seen_area(const Eye& eye, const Triangle& triangle) {
     return area(eye, from_eye(eye, triangle, triangle[0]));
 }
 
-double seen_overlap(const Eye& eye, const Triangle& exit, const Triangle& entry) {
+double seen_overlap(const Eye& eye, const Triangle& exit, const Triangle& entry, double in_front) {
     const Polygon window = from_eye(eye, exit, exit[0]);
     Polygon seen = from_eye(eye, entry, exit[0]);
+    if (std::isfinite(in_front)) {
+        const glm::dvec3& first = window.corners[0];
+        const glm::dvec3 outwards =
+            glm::cross(window.corners[1] - first, window.corners[2] - first);
+        const double least = -in_front * glm::length(outwards);
+        seen =
+            cut(seen, [&](const glm::dvec3& c) { return glm::dot(outwards, c - first) - least; });
+    }
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec3 &a = window.corners[i], &b = window.corners[(i + 1) % 3];
         const glm::dvec3 normal = glm::cross(eye.at_infinity ? eye.position : a, b - a);

@@ -71,8 +71,10 @@ class SeenThrough {
 // Returns a triangle's solid angle (steradian), or for an eye at infinity its projected area.
 double seen_area(const Eye& eye, const Triangle& triangle);
 
-// Returns the seen area of `entry` through `exit`, whose corners are clockwise for the eye.
-double seen_overlap(const Eye& eye, const Triangle& exit, const Triangle& entry);
+// Returns the seen area of `entry` through `exit`, whose corners are clockwise for the eye. Parts
+// of `entry` that are more than `in_front` in front of the exit's plane do not count.
+double seen_overlap(const Eye& eye, const Triangle& exit, const Triangle& entry,
+                    double in_front = INFINITY);
 
 // Returns the indices, ascending, of open faces where gaps may begin or end: another part of the
 // mesh lies outside of their plane, or touches it from outside. It may return more faces if finely

@@ -101,7 +101,6 @@ void OrderGraph::look_from(const Eye& eye) {
     });
     if (!gaps_) return;
     gap_edges_ = gaps_->find(eye);
-    across_gaps_ = gap_edges_.size();
     if (overlaps_) {
         const auto more = overlaps_->find(eye);
         all_edges_.assign(gap_edges_.begin(), gap_edges_.end());
@@ -128,7 +127,7 @@ OrderGraph::Passage OrderGraph::passage(std::int32_t tet, std::int32_t edge) con
     const auto index = static_cast<std::size_t>(edge - faces);
     const OpenFaceConstraint& gap = gap_edges_[index];
     const auto corners = [&](std::int32_t face) { return mesh_.corners(faces_of_gaps_[face]); };
-    Passage passed{corners(gap.exit), corners(gap.entry), false, index >= across_gaps_};
+    Passage passed{corners(gap.exit), corners(gap.entry), false, overlaps_ != nullptr};
     auto& [a, b, c] = passed.exit;
     if (passed.behind && sign_as_seen(eye_, a, b, c) < 0) std::swap(b, c);
     return passed;
@@ -136,8 +135,9 @@ OrderGraph::Passage OrderGraph::passage(std::int32_t tet, std::int32_t edge) con
 
 double OrderGraph::area(std::int32_t tet, std::int32_t edge) const {
     const Passage passed = passage(tet, edge);
-    return passed.shared ? seen_area(eye_, passed.exit)
-                         : seen_overlap(eye_, passed.exit, passed.entry);
+    if (passed.shared) return seen_area(eye_, passed.exit);
+    return seen_overlap(eye_, passed.exit, passed.entry,
+                        passed.behind ? tie_distance(mesh_, eye_) : INFINITY);
 }
 
 FarthestFirst::FarthestFirst(const TetMesh& mesh) : mesh_(mesh), next_face_(mesh.tets().size()) {

@@ -102,7 +102,8 @@ class OrderGraph {
     // Returns the seen area of the shared face, or of the overlap of the gap's two open faces.
     double area(std::int32_t tet, std::int32_t edge) const;
     // The exit of the nearer tet and the entry of the farther one. A shared face is both. If tets
-    // overlap, the exit may be the nearer tet's front face, and hides only what is `behind` it.
+    // overlap, the faces may cross, and the exit, which may be the nearer tet's front face, hides
+    // only what is `behind` it.
     struct Passage {
         Triangle exit, entry;
         bool shared, behind;
@@ -128,7 +129,6 @@ class OrderGraph {
     std::unique_ptr<OverlapConstraints> overlaps_;  // null if no overlapping tets are ordered
     std::span<const TetFace> faces_of_gaps_;        // faces that gap_edges_ are indices of
     std::span<const OpenFaceConstraint> gap_edges_;
-    std::size_t across_gaps_ = 0;                // the first edges; others are of overlaps
     std::vector<OpenFaceConstraint> all_edges_;  // memory of gap_edges_ if tets overlap
     std::vector<std::int32_t> first_gap_;  // first gap edge of each tet, or -1; empty without gaps
     std::vector<std::int32_t> next_gap_;   // next gap edge of the same tet, or -1

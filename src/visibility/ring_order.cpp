@@ -69,6 +69,7 @@ void for_each_row(const SeenPolygon& polygon, const PixelArea& area, const Visit
 }
 
 SeenPolygon overlap_of(const SeenPolygon& a, const SeenPolygon& b) {
+    if (b.count == 0) return {};
     const double sign = signed_area(b) < 0 ? -1 : 1;
     SeenPolygon common = a;
     for (std::size_t i = 0; i < b.count; ++i) {
@@ -119,7 +120,8 @@ bool covers_some(const SeenPolygon& polygon, const PixelArea& area) {
 constexpr std::int64_t work_a_constraint = 16;
 
 // Pixels are ordered one by one, if tets overlap, where this takes at most so many looks at tets a
-// constraint: to halve a rectangle again and again takes longer.
+// constraint: to halve a rectangle again and again takes longer. Measured: the order of 200 random
+// tets takes .6 s in place of 9.5 s; with 32, `can` has a third more tets to draw.
 constexpr std::int64_t looks_a_constraint = 8;
 
 // Two tets overlap on a ray if they share more than the sum of these parts of the shorter tet's
@@ -335,21 +337,22 @@ void RingOrder::draw_around(const Problem& problem, const Solution& solution) {
 }
 
 bool RingOrder::is_dense(const Problem& problem, const PixelArea& pixels) {
-    std::int64_t looks = 0;
+    // draw_row() looks at all tets once, and at each tet once a pixel.
+    std::int64_t looks = (pixels.last_row - pixels.first_row + 1) * std::ssize(problem.tets);
     for (const Member& member : problem.tets) looks += common_pixels(member.pixels, pixels).count();
     return looks <= looks_a_constraint * std::ssize(problem.constraints);
 }
 
 void RingOrder::draw_pixels(const Problem& problem, const PixelArea& pixels) {
     for (std::int32_t row = pixels.first_row; row <= pixels.last_row; ++row) {
-        for (std::int32_t column = pixels.first_column; column <= pixels.last_column; ++column) {
-            const PixelArea pixel{column, column, row, row};
-            if (graph_.orders_overlaps()) {
-                draw_by_entry(problem, pixel);
-            } else {
-                draw_pixel(problem, pixel);
-            }
+        check_interrupt();
+        const PixelArea here{pixels.first_column, pixels.last_column, row, row};
+        if (graph_.orders_overlaps()) {
+            draw_row(problem, here);
+            continue;
         }
+        for (std::int32_t column = here.first_column; column <= here.last_column; ++column)
+            draw_pixel(problem, {column, column, row, row});
     }
 }
 
@@ -358,7 +361,22 @@ View::Ray RingOrder::ray_of(const PixelArea& pixel) const {
     return finder_.view().ray(pixel.first_column + moved.x, pixel.first_row - moved.y);
 }
 
-void RingOrder::draw_by_entry(const Problem& problem, const PixelArea& pixel) {
+// Draws the tets of each pixel of a row by entry.
+void RingOrder::draw_row(const Problem& problem, const PixelArea& row) {
+    std::vector<std::vector<std::int32_t>> columns(static_cast<std::size_t>(row.count()));
+    for (std::size_t i = 0; i < problem.tets.size(); ++i) {
+        const PixelArea pixels = common_pixels(problem.tets[i].pixels, row);
+        if (pixels.empty()) continue;
+        for (std::int32_t at = pixels.first_column; at <= pixels.last_column; ++at)
+            columns[at - row.first_column].push_back(static_cast<std::int32_t>(i));
+    }
+    for (std::int32_t at = row.first_column; at <= row.last_column; ++at)
+        draw_by_entry(problem, columns[at - row.first_column],
+                      {at, at, row.first_row, row.last_row});
+}
+
+void RingOrder::draw_by_entry(const Problem& problem, std::span<const std::int32_t> tets,
+                              const PixelArea& pixel) {
     struct Met {
         std::int32_t index;
         double entry;
@@ -367,11 +385,10 @@ void RingOrder::draw_by_entry(const Problem& problem, const PixelArea& pixel) {
     const TetMesh& mesh = graph_.mesh();
     const auto tet_of = [&](const Met& met) { return problem.tets[met.index].tet; };
     std::vector<Met> met;
-    for (std::size_t i = 0; i < problem.tets.size(); ++i) {
-        const Member& member = problem.tets[i];
-        if (common_pixels(member.pixels, pixel).empty()) continue;
-        const RaySpan span = span_through(ray, mesh.points(), mesh.tets()[member.tet]);
-        if (span.out > span.in) met.push_back({static_cast<std::int32_t>(i), span.in});
+    for (const std::int32_t index : tets) {
+        const Tet& tet = mesh.tets()[problem.tets[index].tet];
+        const RaySpan span = span_through(ray, mesh.points(), tet);
+        if (span.out > span.in) met.push_back({index, span.in});
     }
     sort_by_entry(std::span(met), entry_rule(mesh, graph_.eye(), ray.direction), &Met::entry,
                   tet_of);

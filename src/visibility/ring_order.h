@@ -132,7 +132,9 @@ class RingOrder {
     static bool is_dense(const Problem& problem, const PixelArea& pixels);
     void draw_pixels(const Problem& problem, const PixelArea& pixels);
     void draw_pixel(const Problem& problem, const PixelArea& pixel);
-    void draw_by_entry(const Problem& problem, const PixelArea& pixel);
+    void draw_row(const Problem& problem, const PixelArea& row);
+    void draw_by_entry(const Problem& problem, std::span<const std::int32_t> tets,
+                       const PixelArea& pixel);
 
     const OrderGraph& graph_;
     PixelFinder finder_;

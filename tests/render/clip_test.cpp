@@ -8,6 +8,7 @@
 #include "renderer_scenes.h"
 #include "support/clips.h"
 #include "support/heard_warnings.h"
+#include "support/overlapping_tets.h"
 #include "tiles/cpu_capabilities.h"
 
 namespace lamina {
@@ -88,6 +89,35 @@ TEST(ChangedClip, SaysWhyAPictureShowsNothing) {
     EXPECT_NE(warning_of({{left}, ClipBox{{.5, 0, 0}, {1, 1, 1}}}).find(all), std::string::npos);
     EXPECT_NE(warning_of({{right}, {}}).find("in what the clip keeps"), std::string::npos);
     EXPECT_EQ(warning_of({}).find("clip"), std::string::npos);
+}
+
+// Only orders of tets that overlap say so. A clip that is removed again leaves no trace.
+TEST(ChangedClip, LeavesTheErrorOfOverlappingTetsUnknown) {
+    Scene scene = mesh_scene();
+    const auto soup = std::make_shared<const SceneMesh>(scene_mesh(scene, test::tet_soup(20, 8)));
+    SceneRenderer frames(scene, soup, cpu_capabilities());
+    const auto warns_of = [&](const std::string& text) {
+        return std::ranges::any_of(frames.warnings(), [&](const std::string& warning) {
+            return warning.find(text) != std::string::npos;
+        });
+    };
+    const Image whole = frames.draw_picture();
+    EXPECT_TRUE(warns_of("a ray shows them one after the other"));
+    EXPECT_EQ(frames.plan().project.error.kind, ErrorKind::sampled);
+    Clip clip;
+    clip.planes = {{{.5, .5, .5}, {0, 0, 1}}};
+    frames.set_clip(clip);
+    frames.draw_picture();
+    EXPECT_TRUE(warns_of("the error of a picture is unknown"));
+    EXPECT_EQ(frames.plan().project.error.kind, ErrorKind::unknown);
+    frames.set_clip({});
+    EXPECT_EQ(frames.draw_picture().rgba, whole.rgba);
+    EXPECT_TRUE(warns_of("a ray shows them one after the other"));
+    // Each view decides anew whether it has too many pixels.
+    frames.set_size(8000, 6000);
+    EXPECT_TRUE(warns_of("\"exact\" orders them in all pixels, slowly"));
+    frames.set_size(scene.width, scene.height);
+    EXPECT_EQ(frames.draw_picture().rgba, whole.rgba);
 }
 
 TEST(ChangedClip, CutsAMeshAwayThatIsSmallerThanItsBox) {

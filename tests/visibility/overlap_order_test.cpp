@@ -109,7 +109,7 @@ Camera camera_from(const glm::dvec3& eye, Projection projection) {
 TEST(OverlapOrder, DrawsEachRaysTetsByEntry) {
     for (const test::OverlapCase& each : test::overlap_cases()) {
         const TetMesh mesh(each.mesh, "mesh");
-        const auto pairs = overlapping_pairs(mesh);
+        const auto pairs = overlapping_pairs(mesh, 10'000);
         ASSERT_TRUE(pairs && !pairs->empty()) << each.name;
         VisibilityOrder order(mesh, OrderMethod::exact, *pairs);
         for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
@@ -135,6 +135,33 @@ TEST(OverlapOrder, IsWrongWithoutThePairs) {
     VisibilityOrder order(mesh, OrderMethod::exact);
     const View view(camera_from({.3, .4, 2.4}, Projection::perspective), 57, 49);
     EXPECT_GT(judge_by_entry(mesh, view, order.sort_pixels(view)).wrong, 100);
+    EXPECT_GT(order.report().broken, 0);
+}
+
+// Two tets that cut one another are ordered pixel by pixel only beside the lines on which they
+// cross, so twice the picture's sides make twice as many rectangles. If all pixels that see both
+// were ordered alone, there would be four times as many.
+TEST(OverlapOrder, HalvesTheRectanglesOfFewTets) {
+    const TetMesh mesh(test::overlap_cases().front().mesh, "two");
+    VisibilityOrder order(mesh, OrderMethod::exact, overlapping_pairs(mesh, 1).value());
+    const Camera camera = camera_from({.3, .4, 2.4}, Projection::perspective);
+    const std::size_t small = order.sort_pixels(View(camera, 400, 300)).limited.size();
+    EXPECT_GT(small, 0);
+    EXPECT_LT(order.sort_pixels(View(camera, 800, 600)).limited.size(), 3 * small);
+}
+
+// Many tets, each in few pixels, are not ordered pixel by pixel, however many constraints they
+// have.
+TEST(OverlapOrder, SplitsThePictureOfManySmallTets) {
+    MeshData data;
+    for (int i = 0; i < 1500; ++i)
+        test::append_tet(data, test::regular_tet({.5 + .33 * std::sin(1.7 * i),
+                                                  .5 + .33 * std::sin(.37 * i * i), .5 + 1e-4 * i},
+                                                 .04));
+    const TetMesh mesh(data, "many");
+    VisibilityOrder order(mesh, OrderMethod::exact, overlapping_pairs(mesh, 50'000).value());
+    const View view(camera_from({.3, .4, 2.4}, Projection::perspective), 57, 49);
+    EXPECT_EQ(judge_by_entry(mesh, view, order.sort_pixels(view)).wrong, 0);
 }
 
 }  // namespace
