@@ -166,10 +166,13 @@ class LabelTable {
             if (number(i) == 0) return i;
         return size() > 1 ? std::optional(outside.value_or(common)) : std::nullopt;
     }
-    // Returns the place of the value around the data; nothing if there is none.
+    // Returns the place of the value around the data; nothing if there is none, or if the file
+    // names it.
     std::optional<std::size_t> surrounding() const {
         for (std::size_t i = 0; around_ && i < size(); ++i)
-            if (value(i) == *around_) return i;
+            if (value(i) == *around_)
+                return label(i) == nullptr || label(i)->name.empty() ? std::optional(i)
+                                                                     : std::nullopt;
         return std::nullopt;
     }
 
@@ -202,24 +205,23 @@ std::string label_text(const LabelTable& labels, bool known, std::optional<std::
 }
 
 // Returns the place of the label that lies around the others, a margin, and is not the background;
-// nothing if no other one is left, or if the file names it.
+// nothing if no other one is left.
 std::optional<std::size_t> margin_of(const LabelTable& labels,
                                      const std::optional<std::size_t>& background) {
     const std::optional<std::size_t> around = labels.surrounding();
-    if (!around || !background || around == background || labels.size() < 3) return std::nullopt;
-    const Label* const label = labels.label(*around);
-    return label == nullptr || label->name.empty() ? around : std::nullopt;
+    return background && around != background && labels.size() > 2 ? around : std::nullopt;
 }
 
-// Returns a transfer function for labels: background and, unless there is a range, margin are
-// transparent; each of the others has the file's colour and opacity (`said`, or null) or a colour
-// that reaches halfway to its neighbours. `range`: numbers of the file that show; all if empty.
+// Returns a transfer function for labels: background and margin are transparent (a range asks for
+// labels, so the one around the data is neither because it lies there); each of the others has the
+// file's colour and opacity (`said`, or null) or a colour that reaches halfway to its neighbours.
+// `range`: numbers of the file that show; all if empty.
 AutomaticTransfer label_transfer(const ValueDistribution& values, const VolumeLabels* said,
                                  const std::optional<ValueRange>& range,
                                  const std::optional<double>& around) {
-    const LabelTable labels(values, said, around);
+    const LabelTable labels(values, said, range ? std::nullopt : around);
     const std::optional<std::size_t> background = labels.background();
-    const std::optional<std::size_t> margin = range ? std::nullopt : margin_of(labels, background);
+    const std::optional<std::size_t> margin = margin_of(labels, background);
     double shown = 1;
     for (const auto& hidden : {background, margin})
         if (hidden) shown -= labels.share(*hidden);

@@ -91,9 +91,11 @@ inline bool is_right_order(const Auto<ProjectOrder>& order) {
 // for seconds a frame.
 inline constexpr std::int64_t most_covered_pixels = 15'000'000;
 
-// Tells whether an automatic order would take too long to order overlapping tets in all pixels.
+// Tells whether an automatic order would take too long to solve the rings of overlapping tets.
+// Without their pairs, most pixels of rings have no right order and are divided one by one.
 inline bool orders_slowly(const Auto<ProjectOrder>& order, const MeshOverlap& overlap) {
-    return order.is_automatic() && overlap.covered_pixels > most_covered_pixels;
+    return order.is_automatic() && overlap.tets > 0 &&
+           (!overlap.pairs || overlap.covered_pixels > most_covered_pixels);
 }
 
 // Tells whether pictures show all overlapping tets, if any, as the tracer defines them (EntryRule).

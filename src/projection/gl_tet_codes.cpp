@@ -330,7 +330,7 @@ void GlTetCodes::dispatch() {
             program_->set("first_tile", first);
             program_->dispatch(std::min(tiles_of_dispatch, left - first));
         }
-        pace_->dispatched(static_cast<int>(std::int64_t{entries} * left / tiles));
+        pace_->dispatched(std::max(1, static_cast<int>(std::int64_t{entries} * left / tiles)));
         begin += entries;
         while (left > 0 && length(left - 1) <= begin) --left;
     }

@@ -310,14 +310,14 @@ class ProjectDrawing : public Drawing {
         return explain(plan, facts_, capabilities);
     }
 
-    Warnings warnings(const Resolved& resolved, const Plan& /*plan*/) override {
+    Warnings warnings(const Resolved& resolved, const Plan& plan) override {
         const Scene& scene = resolved.scene();
         if (!data_warnings_) data_warnings_ = data_warnings(scene, *whole_);
         Warnings all = *data_warnings_;
         const auto add = [&](Warnings more) {
             for (std::string& warning : more) all.push_back(std::move(warning));
         };
-        add(plan_warnings(scene, facts_.overlap));
+        add(plan_warnings(scene, plan.project, facts_.overlap));
         if (renderer_) add(frame_warnings(renderer_->order_report()));
         return all;
     }
@@ -423,7 +423,10 @@ void SceneRenderer::set_transfer_function(const TransferFunction& transfer_funct
 }
 
 void SceneRenderer::set_clip(const Clip& clip) {
-    change([&](Scene& scene) { scene.clip = clip; });
+    change([&](Scene& scene) {
+        scene.clip = clip;
+        scene.project.order = asked_.project.order;  // the clip may remove tets that overlap
+    });
     data_measured_ = renderer_fits_ = false;
 }
 

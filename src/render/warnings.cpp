@@ -276,19 +276,19 @@ Warnings plan_warnings(const Scene& scene, const SlicePlan& plan) {
     return warnings;
 }
 
-Warnings plan_warnings(const Scene& scene, const MeshOverlap& overlap) {
+Warnings plan_warnings(const Scene& scene, const ProjectPlan& plan, const MeshOverlap& overlap) {
     Warnings warnings;
     add_clamped_colors(scene, warnings);
     const Auto<ProjectOrder>& order = scene.project.order;
-    if (overlap.tets > 0) {
+    if (overlap.tets > 0 && !plan.single_color) {
         warnings.push_back(fmt::format(
             "{}: {} tets overlap others: {}", name_of_mesh(scene), overlap.tets,
             orders_overlaps(order, overlap)
                 ? "a ray shows them one after the other, whole, in the order in which it enters "
                   "them"
                 : "they may not be drawn in the order in which a ray enters them, and the error of "
-                  "a picture is unknown where a ray meets them"));
-        if (orders_slowly(order, overlap))
+                  "a picture is unknown"));
+        if (overlap.pairs && orders_slowly(order, overlap))
             warnings.back() += "; render.project.order \"exact\" orders them in all pixels, slowly";
     }
     return warnings;

@@ -27,8 +27,9 @@ Warnings data_warnings(const Scene& scene, const SceneMesh& mesh);
 // Warns of errors above the scene's max_error, and of colours that the target clamps. Nothing in
 // the scene may be automatic.
 Warnings plan_warnings(const Scene& scene, const SlicePlan& plan);
-// Warns of colours that the target clamps, and of tets of the mesh that overlap others.
-Warnings plan_warnings(const Scene& scene, const MeshOverlap& overlap);
+// Warns of colours that the target clamps, and of tets of the mesh that overlap others, if their
+// order counts.
+Warnings plan_warnings(const Scene& scene, const ProjectPlan& plan, const MeshOverlap& overlap);
 
 // Warns of tets that were drawn in a wrong order.
 Warnings frame_warnings(const OrderReport& order);

@@ -322,6 +322,31 @@ TEST(Choose, LeavesOutAMarginAroundLabels) {
     EXPECT_TRUE(shows(nothing_else, 3));
 }
 
+// A file names what is wanted, so a named label around the others shows, and so does one in a range
+// that asks for it.
+TEST(Choose, ShowsALabelAroundTheOthersThatIsNamedOrAskedFor) {
+    Grid grid = test::grid_of({24, 24, 24}, Centering::node);
+    grid.lookup = VolumeLookup::nearest;
+    const auto shows_around = [&](const char* name, std::optional<ValueRange> range) {
+        const Volume volume =
+            test::volume_of<std::uint8_t>(
+                grid,
+                [&](double i, double j, double k) {
+                    const double least = std::min({i, j, k}), most = std::max({i, j, k});
+                    return least < 2 || most > 21 ? 1 : least > 6 && most < 15 ? 3 : 2;
+                })
+                .labelled(std::make_shared<const VolumeLabels>(
+                    VolumeLabels{false, {{1, "1", name}, {2, "2", "body"}, {3, "3", "rod"}}}));
+        const MinMaxBricks bricks = measure_bricks(volume);
+        const Choices found =
+            choose(open_scene(), VolumeField(volume, bricks), {.transfer = {.range = range}});
+        return found.scene.transfer_function->at(1).extinction > 0;
+    };
+    EXPECT_FALSE(shows_around("", {}));
+    EXPECT_TRUE(shows_around("skin", {}));  // the body, which is more frequent, is transparent
+    EXPECT_TRUE(shows_around("", ValueRange{.5, 1.5}));
+}
+
 // Such as rock: the matrix fills the box and its corners, and pores reach the faces, too.
 TEST(Choose, TakesNoLabelForAMarginThatOthersInterruptAtTheFaces) {
     Grid grid = test::grid_of({24, 24, 24}, Centering::node);

@@ -161,7 +161,7 @@ TEST_P(Rings, HaveNoKnownErrorIfOverlappingTetsAreClipped) {
     const ProjectPlan plan = plan_of(mesh, scene, capabilities()).project;
     EXPECT_EQ(plan.error.kind, ErrorKind::unknown);
     EXPECT_EQ(plan.overlaps, nullptr);
-    EXPECT_TRUE(plan.solve_rings);
+    EXPECT_FALSE(plan.solve_rings);  // dividing their pixels would take long, and err
 }
 
 // 450 tets in one cube, most of which overlap each other, are more than 50,000 pairs.
@@ -171,6 +171,7 @@ TEST_P(Rings, HaveNoKnownErrorIfTooManyPairsOverlap) {
     scene.width = 16;
     scene.height = 12;
     EXPECT_EQ(plan_of(mesh, scene, capabilities()).project.overlaps, nullptr);
+    EXPECT_FALSE(plan_of(mesh, scene, capabilities()).project.solve_rings);
     const Drawn drawn = draw(mesh, scene);
     EXPECT_EQ(drawn.error.kind, ErrorKind::unknown);
     EXPECT_GT(drawn.order.broken, 0);
