@@ -21,7 +21,7 @@ class FaceTree {
     // Returns the empty box, to which others can be added.
     static constexpr Box nothing() { return {glm::dvec3(INFINITY), glm::dvec3(-INFINITY)}; }
 
-    static Box box_around(const std::array<glm::dvec3, 3>& corners) {
+    static Box box_around(std::span<const glm::dvec3> corners) {
         Box box = nothing();
         for (const glm::dvec3& corner : corners) box.add(corner);
         return box;

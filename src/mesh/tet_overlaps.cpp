@@ -116,10 +116,8 @@ std::optional<std::vector<TetPair>> overlapping_pairs(const TetMesh& mesh, std::
         return found;
     };
     std::vector<FaceTree::Box> boxes(mesh.tets().size());
-    parallel_for(count, tets_per_task, [&](std::int64_t tet) {
-        boxes[tet] = FaceTree::nothing();
-        for (const std::int32_t corner : mesh.tets()[tet]) boxes[tet].add(mesh.points()[corner]);
-    });
+    parallel_for(count, tets_per_task,
+                 [&](std::int64_t tet) { boxes[tet] = FaceTree::box_around(placed(tet).corners); });
     const FaceTree tree(boxes);
     const auto flat = [&](std::int64_t tet) {
         return std::ranges::binary_search(mesh.flat_tets(), static_cast<std::int32_t>(tet));

@@ -21,16 +21,6 @@ std::size_t after(std::size_t corner) {
     return corner == 2 ? 0 : corner + 1;
 }
 
-// A triangle cut by three planes has at most six corners.
-struct Polygon {
-    // Relative to the eye; if it is at infinity, to any common origin.
-    std::array<glm::dvec3, 7> corners;
-    std::size_t count = 0;
-    void add(const glm::dvec3& corner) {
-        if (count < corners.size()) corners[count++] = corner;
-    }
-};
-
 // Returns the solid angle of a triangle seen from 0 (Van Oosterom and Strackee, The solid angle of
 // a plane triangle, 1983, equation 8).
 double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
@@ -41,7 +31,7 @@ double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
     return 2 * std::abs(std::atan2(std::abs(determinant), rest));
 }
 
-double area(const Eye& eye, const Polygon& polygon) {
+double area(const Eye& eye, const CutTriangle& polygon) {
     double sum = 0;
     for (std::size_t i = 2; i < polygon.count; ++i) {
         const glm::dvec3 &a = polygon.corners[0], &b = polygon.corners[i - 1],
@@ -54,8 +44,9 @@ double area(const Eye& eye, const Polygon& polygon) {
     return sum;
 }
 
-Polygon from_eye(const Eye& eye, const Triangle& triangle, const glm::dvec3& origin) {
-    Polygon polygon;
+// Returns a triangle relative to the eye; if that is at infinity, to `origin`.
+CutTriangle from_eye(const Eye& eye, const Triangle& triangle, const glm::dvec3& origin) {
+    CutTriangle polygon;
     for (const glm::dvec3& corner : triangle)
         polygon.add(corner - (eye.at_infinity ? origin : eye.position));
     return polygon;
@@ -351,17 +342,17 @@ double seen_area(const Eye& eye, const Triangle& triangle) {
     return area(eye, from_eye(eye, triangle, triangle[0]));
 }
 
+CutTriangle part_behind(const CutTriangle& exit, const CutTriangle& entry, double slack) {
+    const glm::dvec3& first = exit.corners[0];
+    const glm::dvec3 outwards = glm::cross(exit.corners[1] - first, exit.corners[2] - first);
+    const double least = -slack * glm::length(outwards);
+    return cut(entry, [&](const glm::dvec3& c) { return glm::dot(outwards, c - first) - least; });
+}
+
 double seen_overlap(const Eye& eye, const Triangle& exit, const Triangle& entry, double in_front) {
-    const Polygon window = from_eye(eye, exit, exit[0]);
-    Polygon seen = from_eye(eye, entry, exit[0]);
-    if (std::isfinite(in_front)) {
-        const glm::dvec3& first = window.corners[0];
-        const glm::dvec3 outwards =
-            glm::cross(window.corners[1] - first, window.corners[2] - first);
-        const double least = -in_front * glm::length(outwards);
-        seen =
-            cut(seen, [&](const glm::dvec3& c) { return glm::dot(outwards, c - first) - least; });
-    }
+    const CutTriangle window = from_eye(eye, exit, exit[0]);
+    CutTriangle seen = from_eye(eye, entry, exit[0]);
+    if (std::isfinite(in_front)) seen = part_behind(window, seen, in_front);
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec3 &a = window.corners[i], &b = window.corners[(i + 1) % 3];
         const glm::dvec3 normal = glm::cross(eye.at_infinity ? eye.position : a, b - a);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "mesh/face_tree.h"
 #include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
@@ -22,6 +24,18 @@ Polygon cut(const Polygon& polygon, const Height& height) {
     }
     return kept;
 }
+
+// A triangle cut by up to four planes, each of which adds at most one corner.
+struct CutTriangle {
+    std::array<glm::dvec3, 7> corners;
+    std::size_t count = 0;
+    void add(const glm::dvec3& corner) {
+        if (count < corners.size()) corners[count++] = corner;
+    }
+};
+
+// Returns the part of an entry that is behind an exit's plane, or less than `slack` in front of it.
+CutTriangle part_behind(const CutTriangle& exit, const CutTriangle& entry, double slack);
 
 // A triangle as an eye sees it. The rays through it fill a pyramid, or a prism.
 class SeenTriangle {

@@ -80,24 +80,6 @@ SeenPolygon overlap_of(const SeenPolygon& a, const SeenPolygon& b) {
     return common;
 }
 
-// A triangle cut by a plane.
-struct ClippedTriangle {
-    std::array<glm::dvec3, 4> corners;
-    std::size_t count = 0;
-    void add(const glm::dvec3& corner) {
-        if (count < corners.size()) corners[count++] = corner;
-    }
-};
-
-// Returns the part of an entry that is behind an exit's plane, or less than `slack` in front of it.
-ClippedTriangle part_behind(const Triangle& exit, const Triangle& entry, double slack) {
-    const glm::dvec3 normal = glm::cross(exit[1] - exit[0], exit[2] - exit[0]);
-    const double least = -slack * glm::length(normal);
-    return cut(ClippedTriangle{{entry[0], entry[1], entry[2]}, 3}, [&](const glm::dvec3& corner) {
-        return glm::dot(normal, corner - exit[0]) - least;
-    });
-}
-
 // Returns the rectangle around the pixels whose centres a polygon (nearly) covers.
 PixelArea covered_pixels(const SeenPolygon& polygon, const PixelArea& area) {
     PixelArea covered = no_pixels;
@@ -211,8 +193,11 @@ SeenPolygon RingOrder::seen_through(std::int32_t tet, std::int32_t edge) const {
     const SeenPolygon exit = finder_.polygon(passage.exit);
     if (passage.shared) return exit;
     if (!passage.behind) return overlap_of(exit, finder_.polygon(passage.entry));
-    const ClippedTriangle entry =
-        part_behind(passage.exit, passage.entry, tie_distance(graph_.mesh(), graph_.eye()));
+    const auto whole = [](const Triangle& corners) {
+        return CutTriangle{{corners[0], corners[1], corners[2]}, 3};
+    };
+    const CutTriangle entry = part_behind(whole(passage.exit), whole(passage.entry),
+                                          tie_distance(graph_.mesh(), graph_.eye()));
     return overlap_of(exit, finder_.polygon(std::span(entry.corners).first(entry.count)));
 }
 
