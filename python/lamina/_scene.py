@@ -24,7 +24,7 @@ from ._words import WORDS
 # Suffixes of pictures and of data, which people mean for Picture.save() and Volume.save().
 _NO_SCENES = (".png", ".exr", ".npy", ".jpg", ".jpeg", ".tif", ".tiff", ".nrrd", ".vtu")
 
-# Where the keywords stand that people expect of render().
+# Keywords that people expect of render(), and the place that takes each.
 _ELSEWHERE = {
     **dict.fromkeys(("title", "axes", "scale_bar", "labels", "box"), ", which annotations={...} takes"),
     **dict.fromkeys(("legend", "colorbar", "colourbar", "scalar_bar"), ', expected annotations={"colorbar": True}'),

@@ -16,7 +16,7 @@
 
 namespace lamina {
 
-// What is known of tets that share space with others.
+// Tets that share space with others: how many, and in which pairs.
 struct MeshOverlap {
     std::int64_t tets = 0;  // count_overlapping_tets() (mesh/mesh_shape.h)
     // overlapping_pairs(); null if there are too many, a clip cuts the mesh, or no tets overlap.

@@ -14,7 +14,7 @@ int WorkPace::next(int left) {
     if (units_ == 0) since_waiting_ = {};
     int units = std::min(most_, left);
     if (!timed_) return units;
-    // What comes first may show nothing, so the first frame goes ahead step by step.
+    // The first units may show nothing, so the first frame goes ahead step by step.
     if (!known_) units = std::min(units, std::max(4 * last_units_, step_));
     if (ms_per_unit_ > 0) {
         const double fitting = std::min<double>(wanted_ms / ms_per_unit_, units);

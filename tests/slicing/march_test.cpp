@@ -148,7 +148,7 @@ TEST_P(MarchTest, DispatchesThatAreTimedDrawTheSame) {
     }
 }
 
-// What tiles take is known from the second frame on.
+// Costs of tiles are known from the second frame on.
 TEST_P(MarchTest, TilesSortedByCostDrawTheSame) {
     if (!gl::has_extension("GL_ARB_shader_clock")) GTEST_SKIP() << "no clock in shaders";
     Capabilities sorted = capabilities();

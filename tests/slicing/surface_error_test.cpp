@@ -78,7 +78,7 @@ TEST(SurfaceError, KeepsABoundBelowMaxError) {
     EXPECT_GT(worst, exact_segment_error);
 }
 
-// Where color jumps, what counts is how much of a ray's light has it.
+// A jump of colour counts by the share of a ray's light that has it.
 TEST(SurfaceError, CountsJumpsOfColor) {
     const Volume volume = ramp(0, .1);
     const auto claim_at = [&](double extinction) {
