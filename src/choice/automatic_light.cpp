@@ -74,6 +74,7 @@ LightChoice choose_light(const Scene& scene, const TransferSubject& subject, con
     if (const auto key = refusal(scene)) return {false, "not lit, because " + *key};
     const ValueDistribution& values = padding.rest;
     if (values.distinct() < 2) return {false, "not lit: the data have a single value"};
+    if (field.slice()) return {false, "not lit: one slice has no surface"};
     if (values.distinct() == 2) return {true, "lit: data of two values are a surface"};
     if (is_sheet(subject))
         return {false, "not lit: the mesh is a sheet, and gradients do not say how it is bent"};

@@ -70,14 +70,23 @@ TransferFunction per_diagonal(const TransferFunction& transfer_function, const F
     return transfer_function.attenuated(1 / diagonal_of(field));
 }
 
+// Returns the orientation of the data. One slice is seen straight unless a side is asked for.
+Orientation orientation_in(const Field& field, const std::optional<UpAxis>& up = {},
+                           const std::optional<ViewSide>& side = {}) {
+    const std::optional<SliceAxes> slice = side ? std::nullopt : field.slice();
+    const auto straight =
+        slice ? orientation_of_slice(*slice, field.axes(), up) : std::optional<Orientation>();
+    return straight ? *straight
+                    : orientation_of(field.axes(), field.corners(), up, field.axial_slices());
+}
+
 // Returns the median optical depth of rays through what shows, as seen all over in a square picture
 // of these points: so it does not depend on the picture that is drawn. 0 if no ray meets anything.
 double median_depth(Scene scene, const TransferFunction& transfer_function,
                     std::span<const glm::dvec3> points, const Field& field) {
     scene.transfer_function = transfer_function;
     scene.width = scene.height = square_side;
-    const Orientation from =
-        orientation_of(field.axes(), field.corners(), {}, field.axial_slices());
+    const Orientation from = orientation_in(field);
     scene.camera =
         fitted_camera(points, from.front, turn_to(ViewSide::iso, from), square_side, square_side);
     std::vector<double> depths = field.optical_depths(scene);
@@ -311,8 +320,7 @@ void add_lights(const Adjustments& adjustments, Choices& choices) {
 // people.
 std::string choose_camera(const Adjustments& adjustments, const Field& field, bool per_world_unit,
                           Scene& scene) {
-    const Orientation from =
-        orientation_of(field.axes(), field.corners(), adjustments.up, field.axial_slices());
+    const Orientation from = orientation_in(field, adjustments.up, adjustments.side);
     ViewTurn turn = turn_to(adjustments.side.value_or(ViewSide::iso), from);
     turn.azimuth += adjustments.turn.azimuth;
     turn.elevation += adjustments.turn.elevation;
@@ -390,7 +398,9 @@ Choices choose_unlit(Scene asked, const Field& whole, const Adjustments& adjustm
     std::optional<BorderlessField> inner;
     // A box says itself what it keeps. If this has a part of the border, the border counts.
     const bool has_box = scene.clip.box || adjustments.own_crop;
-    if (scene.transfer_function.is_automatic() && scene.clip.planes.size() + 6 <= Clip::most_planes)
+    // A picture of one slice keeps its border.
+    if (scene.transfer_function.is_automatic() && !whole.slice() &&
+        scene.clip.planes.size() + 6 <= Clip::most_planes)
         inner = whole.without_border();
     std::optional<BorderlessField> kept;  // a border that counts
     if (inner && has_box && !std::ranges::all_of(inner->sides, [&](const BorderSide& side) {

@@ -319,6 +319,18 @@ bool VolumeField::axial_slices() const {
            length[0] <= most_slice && length[2] >= least_body;
 }
 
+std::optional<SliceAxes> VolumeField::slice() const {
+    const Grid& grid = volume_.grid();
+    if (std::ranges::count(grid.size, 1) != 1) return std::nullopt;
+    const auto thin = static_cast<std::size_t>(std::ranges::find(grid.size, 1) - grid.size.begin());
+    const std::size_t first = thin == 0 ? 1 : 0, second = thin == 2 ? 1 : 2;
+    const glm::dvec3 across = glm::normalize(glm::cross(grid.step[first], grid.step[second]));
+    const auto axis = static_cast<int>(thin);
+    const double steps = grid.index_max()[axis] - grid.index_min()[axis];
+    return SliceAxes{grid.step[first], grid.step[second],
+                     steps * std::abs(glm::dot(across, grid.step[thin]))};
+}
+
 bool VolumeField::lies_in_pieces() const {
     if (!in_pieces_) {
         const LabelSigns::Verdict verdict = label_signs(volume_).verdict;

@@ -12,6 +12,7 @@
 
 #include "annotation/annotation_layer.h"
 #include "choice/constant_border.h"
+#include "choice/orientation.h"
 #include "choice/value_distribution.h"
 #include "choice/variation.h"
 #include "lamina/scene.h"
@@ -47,6 +48,8 @@ class Field {
     virtual WorldAxes axes() const = 0;  // named for meshes: in simulations z is up
     // Tells whether the data seem to be axial slices of a body from head to feet.
     virtual bool axial_slices() const { return false; }
+    // Returns the axes of data that have one sample along a single axis; else nothing.
+    virtual std::optional<SliceAxes> slice() const { return std::nullopt; }
     virtual Quantity quantity() const = 0;        // that the values measure
     virtual std::string length_unit() const = 0;  // of the world; empty if it is unknown
     virtual ValueRange range() const = 0;         // range of the finite values
@@ -114,6 +117,7 @@ class VolumeField : public Field {
 
     WorldAxes axes() const override { return volume_.grid().axes; }
     bool axial_slices() const override;
+    std::optional<SliceAxes> slice() const override;
     Quantity quantity() const override { return volume_.quantity(); }
     std::string length_unit() const override { return volume_.grid().unit; }
     ValueRange range() const override { return bricks_.whole; }

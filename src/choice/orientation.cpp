@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "base/enum_words.h"
@@ -142,11 +143,68 @@ Orientation orientation_of(WorldAxes axes, const std::array<glm::dvec3, 8>& corn
     return {{opposite(patient->right), opposite(patient->up), patient->toward}, false, reason};
 }
 
+namespace {
+
+// Returns the direction among `first`, `second` and their opposites that is nearest to `wanted`.
+glm::dvec3 nearest(const glm::dvec3& wanted, const glm::dvec3& first, const glm::dvec3& second) {
+    const double one = glm::dot(wanted, first), other = glm::dot(wanted, second);
+    if (std::abs(one) >= std::abs(other)) return one < 0 ? opposite(first) : first;
+    return other < 0 ? opposite(second) : second;
+}
+
+// Returns the axes of a camera for these directions in the picture, which need not be at right
+// angles.
+Axes axes_of(const glm::dvec3& right, const glm::dvec3& up) {
+    Axes axes{glm::normalize(right), {}, {}};
+    axes.up = glm::normalize(up - glm::dot(up, axes.right) * axes.right);
+    axes.toward = glm::cross(axes.right, axes.up);
+    return axes;
+}
+
+// Returns a slice's axes with the patient's left or, of sagittal slices, back to the right.
+Axes patient_axes(const Axes& patient, const glm::dvec3& first, const glm::dvec3& second) {
+    const glm::dvec3 across = glm::cross(first, second);
+    const glm::dvec3 left = patient.right, head = patient.up, front = patient.toward;
+    const double along_body = std::abs(glm::dot(across, head));
+    const double sideways = std::abs(glm::dot(across, left));
+    const double forward = std::abs(glm::dot(across, front));
+    const bool axial = along_body >= std::max(sideways, forward);
+    const bool sagittal = !axial && sideways > forward;
+    const glm::dvec3 up = nearest(axial ? front : head, first, second);
+    const glm::dvec3 rest = std::abs(glm::dot(up, first)) > .5 ? second : first;
+    const glm::dvec3 wanted = sagittal ? opposite(front) : left;
+    return axes_of(glm::dot(wanted, rest) < 0 ? opposite(rest) : rest, up);
+}
+
+}  // namespace
+
+std::optional<Orientation> orientation_of_slice(const SliceAxes& slice, WorldAxes axes,
+                                                std::optional<UpAxis> up) {
+    const Axes plane = axes_of(slice.right, opposite(slice.down));
+    const std::optional<Axes> patient = front_of_patient(axes);
+    Orientation found{
+        patient ? patient_axes(*patient, plane.right, opposite(plane.up)) : plane, false,
+        patient ? "one slice is seen straight, with the patient's left, or back, to the right"
+                : "one slice is seen straight, its first axis to the right and its second down"};
+    found.straight = true;
+    if (!up) return found;
+    constexpr double least_in_plane = .7;  // cosine: half a right angle
+    const Axes before = found.front;
+    const glm::dvec3 asked = front_of(*up).up;
+    const glm::dvec3 highest = nearest(asked, before.right, before.up);
+    if (glm::dot(asked, highest) < least_in_plane) return std::nullopt;
+    const bool turned = std::abs(glm::dot(highest, before.right)) > .5;
+    found.front = axes_of(turned ? opposite(before.up) : before.right, highest);
+    found.reason = fmt::format("one slice is seen straight; {} is up, as asked", name_of(*up));
+    return found;
+}
+
 ViewTurn turn_to(ViewSide side, const Orientation& orientation) {
     // The left of a patient who stands upright is to the right of who looks from in front.
     const double left = orientation.patient ? 90 : -90;
     switch (side) {
         case ViewSide::iso:
+            if (orientation.straight) return {};
             if (orientation.flat) return turn_to(ViewSide::top, orientation);
             return {three_quarter_azimuth, three_quarter_elevation};
         case ViewSide::front:

@@ -39,12 +39,27 @@ struct Orientation {
     bool patient = false;     // left and right are those of a patient who is seen from in front
     std::string reason = {};  // for people: "+z is up, as asked"
     bool flat = false;        // the three-quarter view would see the edge, so it looks from above
+    bool straight = false;    // the front is the view: nothing is behind it
+};
+
+// A volume of one sample along one axis: the steps of its other two axes in the world, the faster
+// one first, and how thick it is.
+struct SliceAxes {
+    glm::dvec3 right, down;
+    double thickness = 0;
 };
 
 // Returns the orientation of data in a box of the world with these corners. `up`: as asked.
 // `axial_slices`: axes without names seem to be those of slices of a body (Field::axial_slices()).
 Orientation orientation_of(WorldAxes axes, const std::array<glm::dvec3, 8>& corners,
                            std::optional<UpAxis> up = {}, bool axial_slices = false);
+
+// Returns the orientation in which one slice is seen as a picture: its first axis to the right, the
+// second down; a patient's as radiologists look at it, from the feet, from in front or from the
+// left. `up`: as asked; then the other axis grows to the right as before, or as it grew downwards.
+// Returns nothing if `up` is across the slice.
+std::optional<Orientation> orientation_of_slice(const SliceAxes& slice, WorldAxes axes,
+                                                std::optional<UpAxis> up = {});
 
 // Returns the turn from the front to the camera that sees this side.
 ViewTurn turn_to(ViewSide side, const Orientation& orientation);

@@ -14,6 +14,7 @@
 #include "choice/field.h"
 #include "choice/materials.h"
 #include "choice/variation.h"
+#include "image/coded_image.h"
 
 namespace lamina {
 
@@ -70,6 +71,10 @@ constexpr double outline_opacity = .5;
 // Opacity of a mesh that is shown as a body, over this share of the data's diagonal: walls of
 // sheets are thin.
 constexpr double body_opacity = .95, body_length = 1e-3;
+// Opacity of one slice of samples across it, and its colours: levels of an sRGB display from black
+// to below white, joined by lines in linear light that are off by less than half a code of 8 bits.
+constexpr double slice_opacity = .999, lightest = .95;
+constexpr int slice_greys = 32;
 constexpr int body_ranks = 24;  // values of a body's colours, each with as much of the field
 // Share of data without a background that shows at each end of the values, and opacity and places
 // among the colours of the surface in front of it.
@@ -474,6 +479,26 @@ ChosenSurfaces of_distance(const ValueDistribution& values, const Surroundings& 
                                 100 * (below ? values.share_below(0) : 1 - values.share_up_to(0)))};
 }
 
+std::optional<SliceAxes> slice_of(const TransferSubject& subject) {
+    return subject.field == nullptr ? std::nullopt : subject.field->slice();
+}
+
+// Shows one slice as a picture: opaque and grey, from the lowest to the highest usual value.
+// `range`: of these values.
+ChosenSurfaces of_slice(const ValueRange& range, const ValueDistribution& values,
+                        const SliceAxes& slice) {
+    const double extinction = veil_extinction(slice_opacity, slice.thickness);
+    std::vector<TransferKnot> points;
+    for (int i = 0; i <= slice_greys; ++i) {
+        const double place = double{1} * i / slice_greys;
+        const double value = std::lerp(range.lo, range.hi, place);
+        if (!points.empty() && value <= points.back().value) continue;
+        points.push_back({value, {glm::dvec3(linear_from_srgb(lightest * place)), extinction}});
+    }
+    return {points, fmt::format("one slice shows as a picture, in greys from {} to {}",
+                                number_of(range.lo, values), number_of(range.hi, values))};
+}
+
 }  // namespace
 
 bool is_sheet(const TransferSubject& subject) {
@@ -484,6 +509,7 @@ bool is_sheet(const TransferSubject& subject) {
 ChosenSurfaces choose_surfaces(const Padding& padding, bool whole_numbers,
                                const TransferSubject& subject) {
     const ValueDistribution& values = padding.rest;
+    if (const auto slice = slice_of(subject)) return of_slice(usual_range(values), values, *slice);
     const CommonValues common = find_common_values(values, whole_numbers);
     const Surroundings around = Surroundings::of(values, whole_numbers, subject);
     const bool is_volume = subject.field != nullptr && !subject.field->ends_at_surface();
@@ -509,6 +535,11 @@ ChosenSurfaces choose_surfaces_within(const ValueDistribution& values, const Val
                                       bool whole_numbers, const TransferSubject& subject) {
     const ValueDistribution inside = values.between(range.lo, range.hi);
     if (inside.distinct() < 2) return {};
+    if (const auto slice = slice_of(subject)) {
+        ChosenSurfaces picture = of_slice(range, inside, *slice);
+        picture.points.insert(picture.points.begin(), {range.lo, {}});  // nothing shows below it
+        return picture;
+    }
     const Surroundings around = Surroundings::of(inside, whole_numbers, subject);
     Side side = Side::above(inside, range.lo);
     if (side.empty()) return {};

@@ -266,6 +266,54 @@ TEST(Orientation, ViewsLookAtTheirSides) {
     EXPECT_TRUE(near(turned(patient.front, turn_to(ViewSide::left, patient)).toward, {1, 0, 0}));
 }
 
+// Expects the axes of a camera that looks straight at a slice.
+void expect_seen(const std::optional<Orientation>& found, const glm::dvec3& right,
+                 const glm::dvec3& up) {
+    ASSERT_TRUE(found);
+    EXPECT_LT(glm::distance(found->front.right, right), 1e-14) << found->reason;
+    EXPECT_LT(glm::distance(found->front.up, up), 1e-14) << found->reason;
+    EXPECT_LT(glm::distance(found->front.toward, glm::cross(right, up)), 1e-14);
+    const ViewTurn turn = turn_to(ViewSide::iso, *found);
+    EXPECT_EQ(std::pair(turn.azimuth, turn.elevation), std::pair(0., 0.));
+}
+
+TEST(Orientation, OneSliceIsSeenAsAPicture) {
+    const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    for (const WorldAxes axes : {WorldAxes::unnamed, WorldAxes::named}) {
+        expect_seen(orientation_of_slice({x, y}, axes), x, -y);
+        expect_seen(orientation_of_slice({3. * x, z}, axes), x, -z);
+        expect_seen(orientation_of_slice({y, .5 * z}, axes), y, -z);
+        expect_seen(orientation_of_slice({x, y + .5 * x}, axes), x, -y);  // sheared
+    }
+    const auto asked = [&](UpAxis up) {
+        return orientation_of_slice({x, y}, WorldAxes::unnamed, up);
+    };
+    expect_seen(asked(UpAxis::plus_y), x, y);
+    expect_seen(asked(UpAxis::minus_y), x, -y);
+    expect_seen(asked(UpAxis::plus_x), y, x);
+    expect_seen(asked(UpAxis::minus_x), y, -x);
+    EXPECT_FALSE(asked(UpAxis::plus_z));
+}
+
+// Axial slices are seen from the feet, coronal ones from in front, sagittal ones from the left,
+// however the file stores them.
+TEST(Orientation, OneSliceOfAPatientIsSeenAsRadiologistsDo) {
+    const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    const WorldAxes lps = WorldAxes::left_posterior_superior;
+    const WorldAxes ras = WorldAxes::right_anterior_superior;
+    for (const double sign : {1., -1.}) {
+        expect_seen(orientation_of_slice({sign * x, y}, lps), x, -y);
+        expect_seen(orientation_of_slice({y, sign * x}, ras), -x, y);
+        expect_seen(orientation_of_slice({x, sign * z}, lps), x, z);
+        expect_seen(orientation_of_slice({sign * x, z}, ras), -x, z);
+        expect_seen(orientation_of_slice({y, sign * z}, lps), y, z);
+        expect_seen(orientation_of_slice({y, sign * z}, ras), -y, z);
+    }
+    // An oblique slice is not turned in its plane.
+    const glm::dvec3 tilted = glm::normalize(y + .3 * z);
+    expect_seen(orientation_of_slice({x, tilted}, lps), x, -tilted);
+}
+
 TEST(TurnedCamera, GoesAroundItsCenter) {
     Camera camera;
     camera.eye = {0, 0, 5};

@@ -12,6 +12,7 @@
 
 #include "choice/field.h"
 #include "choice/open_scene.h"
+#include "image/coded_image.h"
 #include "scene/camera.h"
 #include "scene_files/scene_reader.h"
 #include "support/expect_error.h"
@@ -255,6 +256,57 @@ TEST(Choose, DataOfOneValueHaveASmallestGradientOfOne) {
         Scene scene;
         scene.lighting = Lighting{};
         EXPECT_EQ((*chosen_of(scene, VolumeField(volume, bricks)).lighting)->smallest_gradient, 1);
+    }
+}
+
+// A slice of 40 by 30 samples with a border of zeros.
+TEST(Choose, OneSliceShowsAllOfItAsAPicture) {
+    for (const std::size_t thin : {0u, 1u, 2u}) {
+        std::array<std::int64_t, 3> size{40, 30, 30};
+        if (thin == 0) size = {1, 40, 30};
+        size[thin] = 1;
+        Grid grid = test::grid_of(size, Centering::cell);
+        for (glm::dvec3& step : grid.step) step *= .25;
+        const auto is_border = [&](std::size_t axis, double i) {
+            return axis != thin && (i < 2 || i > static_cast<double>(size[axis]) - 3);
+        };
+        const Volume volume =
+            test::volume_of<std::uint8_t>(grid, [&](double x, double y, double z) {
+                const bool border = is_border(0, x) || is_border(1, y) || is_border(2, z);
+                return border ? 0 : 100 - 3 * std::abs(x + y + z - 33);
+            });
+        const MinMaxBricks bricks = measure_bricks(volume);
+        const VolumeField field(volume, bricks);
+        Scene open = open_scene();
+        open.lighting = automatic;
+        const auto [scene, reasons] = choose(open, field);
+        EXPECT_EQ(reasons.back(), "lighting: not lit: one slice has no surface");
+        EXPECT_NE(reasons[0].find("one slice shows as a picture, in greys from 0 to 100"),
+                  std::string::npos);
+        EXPECT_TRUE(scene.clip.keeps_all());
+        EXPECT_FALSE(scene.lighting);
+        // Parallel to the slice's normal, through its middle.
+        const glm::dvec3 toward = glm::normalize(scene.camera->eye - scene.camera->center);
+        EXPECT_NEAR(std::abs(toward[static_cast<int>(thin)]), 1, 1e-14);
+        double before = -1;
+        for (const double value : {0., 20., 50., 100.}) {
+            const OpticalProperties shown = scene.transfer_function->at(value);
+            EXPECT_NEAR(-std::expm1(-.25 * shown.extinction), .999, 1e-12);
+            EXPECT_GT(shown.color.x, before);
+            EXPECT_EQ(shown.color, glm::dvec3(shown.color.x));
+            before = shown.color.x;
+        }
+        EXPECT_NEAR(scene.transfer_function->at(50).color.x, linear_from_srgb(.95 / 2), .002);
+        Adjustments wished;
+        wished.transfer.range = ValueRange{10, 60};
+        const Scene within = chosen_of(open, field, wished);
+        EXPECT_EQ(within.transfer_function->at(9.9).extinction, 0);
+        EXPECT_GT(within.transfer_function->at(10.1).extinction, 0);
+        EXPECT_NEAR(within.transfer_function->at(60).color.x, linear_from_srgb(.95), 1e-12);
+        wished.side = ViewSide::iso;  // a side that is asked for is that of the data
+        const Scene oblique = chosen_of(open, field, wished);
+        const glm::dvec3 aside = glm::normalize(oblique.camera->eye - oblique.camera->center);
+        EXPECT_LT(std::abs(aside[static_cast<int>(thin)]), .9);
     }
 }
 
