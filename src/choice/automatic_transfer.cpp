@@ -204,6 +204,14 @@ std::string label_text(const LabelTable& labels, bool known, std::optional<std::
     return text + ", each of the others has a colour";
 }
 
+// Returns the sentence on a margin, which is hidden although nobody said so, and on how it shows.
+std::string margin_text(const LabelTable& labels, std::size_t margin) {
+    return fmt::format(
+        "label {} has no name and covers all outer faces, so it is taken for a margin and not "
+        "shown: --range {},{} shows it, too",
+        labels.number_text(margin), labels.number_text(0), labels.number_text(labels.size() - 1));
+}
+
 // Returns the place of the label that lies around the others, a margin, and is not the background;
 // nothing if no other one is left.
 std::optional<std::size_t> margin_of(const LabelTable& labels,
@@ -245,8 +253,8 @@ AutomaticTransfer label_transfer(const ValueDistribution& values, const VolumeLa
     for (TransferKnot& point : points)
         if (largest > 0) point.optics.extinction /= largest;
     return {TransferFunction::nearest(points),
-            label_text(labels, said != nullptr, background, margin, range), "", false,
-            label_opacity};
+            label_text(labels, said != nullptr, background, margin, range),
+            margin ? margin_text(labels, *margin) : "", false, label_opacity};
 }
 
 std::optional<double> value_around(const TransferSubject& subject) {

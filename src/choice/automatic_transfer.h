@@ -22,8 +22,9 @@ struct TransferAdjustments {
 // A transfer function that was chosen from the data.
 struct AutomaticTransfer {
     TransferFunction transfer_function = TransferFunction::linear({TransferKnot{}});
-    std::string reason{};   // for people: which values show, and which do not
-    std::string padding{};  // for people: which values are padding; empty if none are
+    std::string reason{};  // for people: which values show, and which do not
+    // For people: which values are padding, or which label a margin; empty if none are.
+    std::string padding{};
     // False: extinctions are relative, the largest is 1, and choose() scales them for the data.
     bool per_world_unit = false;
     // Opacity that the median of the rays that meet something visible then gets.

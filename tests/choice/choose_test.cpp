@@ -310,6 +310,29 @@ TEST(Choose, OneSliceShowsAllOfItAsAPicture) {
     }
 }
 
+// A label that nobody hid must not vanish without a word on how it shows.
+TEST(Choose, AMarginOfLabelsIsSaid) {
+    Grid grid = test::grid_of({9, 9, 9}, Centering::cell);
+    grid.lookup = VolumeLookup::nearest;
+    const auto is_outer = [](double i) { return i == 0 || i == 8; };
+    const Volume volume = test::volume_of<std::uint8_t>(grid, [&](double x, double y, double z) {
+        return is_outer(x) || is_outer(y) || is_outer(z) ? 5 : x > 4 ? 3 : y > 4 ? 1 : 0;
+    });
+    const MinMaxBricks bricks = measure_bricks(volume);
+    const VolumeField field(volume, bricks);
+    test::HeardWarnings heard;
+    EXPECT_EQ(chosen_of(open_scene(), field).transfer_function->at(5).extinction, 0);
+    heard.expect_said(
+        "label 5 has no name and covers all outer faces, so it is taken for a margin and not "
+        "shown: --range 0,5 shows it, too");
+    Adjustments wished;
+    wished.transfer.range = ValueRange{0, 5};
+    const Scene wide = chosen_of(open_scene(), field, wished);
+    EXPECT_GT(wide.transfer_function->at(5).extinction, 0);
+    EXPECT_GT(wide.transfer_function->at(3).extinction, 0);
+    EXPECT_EQ(heard.all(), "");
+}
+
 // Degenerate data of every kind get a transfer function and a camera of finite numbers.
 TEST(Choose, DegenerateDataGetFiniteCamerasAndFunctions) {
     const auto check = [](const Volume& volume, const std::string& name) {
