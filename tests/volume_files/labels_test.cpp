@@ -212,6 +212,47 @@ TEST_F(LabelFiles, ThatLookLikeLabelsButAreTakenForAFieldAreNamed) {
     EXPECT_TRUE(heard_.texts.empty());
 }
 
+// No VTK format says of values that they are labels: samples are measured there, too.
+TEST_F(LabelFiles, OfVtkAreMeasured) {
+    const auto repeated = [](int times) {
+        std::string text;
+        for (const char* const value : {"0 ", "90 ", "4 ", "70 "})
+            for (int i = 0; i < times; ++i) text += value;
+        return text;
+    };
+    const auto xml = [&](const char* type, const char* of, int times) {
+        const bool cells = std::string_view(of) == "CellData";
+        const std::string extent = fmt::format("\"0 {} 0 {} 0 {}\"", 4 * times - (cells ? 0 : 1),
+                                               cells ? 1 : 0, cells ? 1 : 0);
+        return write("row.vti",
+                     fmt::format("<VTKFile type=\"ImageData\" version=\"1.0\"><ImageData "
+                                 "WholeExtent={0} Spacing=\"1 1 1\" Origin=\"0 0 0\"><Piece "
+                                 "Extent={0}><{1} Scalars=\"s\"><DataArray Name=\"s\" "
+                                 "type=\"{2}\" format=\"ascii\">{3}</DataArray></{1}></Piece>"
+                                 "</ImageData></VTKFile>",
+                                 extent, of, type, repeated(times)));
+    };
+    const auto legacy = [&](const char* type, int times) {
+        return write("row.vtk",
+                     fmt::format("# vtk DataFile Version 3.0\nrow\nASCII\nDATASET "
+                                 "STRUCTURED_POINTS\nDIMENSIONS {0} 1 1\nORIGIN 0 0 0\nSPACING 1 1 "
+                                 "1\nPOINT_DATA {0}\nSCALARS s {1} 1\nLOOKUP_TABLE default\n{2}\n",
+                                 4 * times, type, repeated(times)));
+    };
+    const auto expect_hints = [&](const auto& file) {
+        read_volume(file(10));
+        heard_.expect_said("its samples look like labels, but only 85 % of them equal their six");
+        EXPECT_EQ(read_volume(file(40)).grid().lookup, VolumeLookup::nearest);
+        heard_.expect_said("its samples are taken for labels, as 96.2 % of them equal their six");
+    };
+    for (const char* const type : {"UInt8", "Int16", "Int32", "Int64", "Float32", "Float64"}) {
+        for (const char* const of : {"PointData", "CellData"})
+            expect_hints([&](int times) { return xml(type, of, times); });
+    }
+    for (const char* const type : {"unsigned_char", "short", "int", "float", "double"})
+        expect_hints([&](int times) { return legacy(type, times); });
+}
+
 // The file's intent says that samples are labels. Their steps: a power of two, which is exact; that
 // of a program which scaled 0 to 7 to 8 bits and rounded; one that is no quantum of whole numbers.
 TEST_F(LabelFiles, ThatAreScaledAreWholeNumbersOrSaid) {
