@@ -116,6 +116,17 @@ std::string range_text(const ValueRange& range) {
     return number_text(range.lo, fineness, 6) + " to " + number_text(range.hi, fineness, 6);
 }
 
+// Returns where in the world a box lies, as text: "x from 0 to 1, y from ...".
+std::string places_text(const std::array<glm::dvec3, 8>& corners) {
+    glm::dvec3 lo = corners[0], hi = corners[0];
+    for (const glm::dvec3& corner : corners) {
+        lo = glm::min(lo, corner);
+        hi = glm::max(hi, corner);
+    }
+    const auto along = [&](int axis) { return range_text({lo[axis], hi[axis]}); };
+    return fmt::format("x from {}, y from {} and z from {}", along(0), along(1), along(2));
+}
+
 // Returns the values that the transfer function shows, as text. Beyond its first and last point it
 // is constant.
 std::string shown_values(const TransferFunction& transfer_function) {
@@ -183,7 +194,8 @@ std::string why_nothing_shows(const Scene& scene, const Field& field, float larg
     if (behind) return "the camera looks away from the data, which lie behind the eye";
     if (const char* const side = side_beside(view, corners))
         return fmt::format("the camera looks past the data, which lie {} the picture", side);
-    if (field.cut_away_by(scene.clip)) return "the clip cuts all of the data away";
+    if (field.cut_away_by(scene.clip))
+        return "the clip cuts all of the data away, which lie in " + places_text(corners);
     if (largest > 0) return why_faint(scene, range, largest);
     return scene.clip.keeps_all()
                ? "no pixel's ray meets a value that the transfer function shows"

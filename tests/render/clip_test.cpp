@@ -78,7 +78,9 @@ TEST(ChangedClip, SaysWhyAPictureShowsNothing) {
                         Image(scene.width, scene.height));
         return heard.all();
     };
-    const std::string all = "shows nothing: the clip cuts all of the data away";
+    const std::string all =
+        "shows nothing: the clip cuts all of the data away, which lie in x from 0 to 1, y from 0 "
+        "to 1 and z from 0 to 1";
     const ClipPlane right{{.6, 0, 0}, {1, 0, 0}}, left{{.4, 0, 0}, {-1, 0, 0}};
     const ClipPlane beyond{{1.1, 1.1, 0}, {1, 1, 0}};
     EXPECT_NE(warning_of({{}, ClipBox{{1.5, 0, 0}, {2, 1, 1}}}).find(all), std::string::npos);
