@@ -356,4 +356,13 @@ ImageColorSpace color_space_of_exr(const std::filesystem::path& path) {
         path, [&](std::uint64_t) { return space_of(Imf::InputFile(path.c_str()).header()); });
 }
 
+std::optional<std::string> attribute_of_exr(const std::filesystem::path& path,
+                                            const std::string& name) {
+    return read_with(path, [&](std::uint64_t) {
+        const Imf::InputFile file(path.c_str());
+        const auto* const found = file.header().findTypedAttribute<Imf::StringAttribute>(name);
+        return found == nullptr ? std::nullopt : std::optional<std::string>(found->value());
+    });
+}
+
 }  // namespace lamina

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "base/output_file.h"
@@ -24,5 +25,9 @@ Image read_exr(const std::filesystem::path& path);
 
 // Returns the colour space of the numbers that read_exr() reads: linear light or display values.
 ImageColorSpace color_space_of_exr(const std::filesystem::path& path);
+
+// Returns the attribute that write_exr() wrote under this name; nothing if there is none.
+std::optional<std::string> attribute_of_exr(const std::filesystem::path& path,
+                                            const std::string& name);
 
 }  // namespace lamina

@@ -192,5 +192,26 @@ TEST(Program, HasAVersionAndRefusesUnknownVerbs) {
     expect_one_line(unknown.err, {"lamina: ", "--help"});
 }
 
+// An automatic camera fits what shows: two transfer functions may have two cameras.
+TEST_F(Compare, WarnsOfDifferentCameras) {
+    const auto write = [&](const std::string& name, const std::string& scene) {
+        AtomicFile file(folder / name);
+        write_exr(file, Image(2, 2), {{"scene", scene}});
+        file.commit();
+    };
+    write("one.exr", R"({"version": 1, "camera": {"eye": [0, 0, 5]}})");
+    write("same.exr", R"({"camera": {"eye": [0, 0, 5]}, "volume": "other.nrrd"})");
+    write("other.exr", R"({"version": 1, "camera": {"eye": [0, 0, 6]}})");
+    write("open.exr", R"({"version": 1})");
+    write("damaged.exr", "{");
+    const std::string warning = "were drawn with different cameras";
+    EXPECT_NE(compare("one.exr", "other.exr").err.find(warning), std::string::npos);
+    for (const char* const fine : {"same.exr", "open.exr", "damaged.exr", "small.exr"}) {
+        const ProgramResult result = compare("one.exr", fine);
+        EXPECT_EQ(result.exit_code, 0) << fine;
+        EXPECT_EQ(result.err, "") << fine;
+    }
+}
+
 }  // namespace
 }  // namespace lamina

@@ -4,14 +4,17 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/json_text.h"
 #include "base/output_file.h"
 #include "base/process.h"
 #include "image/difference.h"
+#include "image/exr.h"
 #include "image/picture.h"
 #include "image/png.h"
 #include "output_files.h"
@@ -58,12 +61,34 @@ void check(const CompareOptions& options) {
     }
 }
 
+// Returns the camera of the scene that an EXR file of lamina carries; null if there is none.
+nlohmann::json camera_of(const std::string& file) {
+    if (std::filesystem::path(file).extension() != ".exr") return nullptr;
+    const auto scene = attribute_of_exr(file, "scene");
+    if (!scene) return nullptr;
+    const auto document = nlohmann::json::parse(*scene, nullptr, false);  // discarded if damaged
+    const auto found = document.is_object() ? document.find("camera") : document.end();
+    return found == document.end() || !found->is_object() ? nlohmann::json() : *found;
+}
+
+// Warns of pictures with different cameras: an automatic camera fits what shows, so that another
+// transfer function may move it.
+void warn_of_cameras(const CompareOptions& options) {
+    const nlohmann::json a = camera_of(options.a), b = camera_of(options.b);
+    if (a.is_null() || b.is_null() || a == b) return;
+    say("{}, {}: were drawn with different cameras, so that edges differ; a scene with a camera, "
+        "as "
+        "lamina scene writes it, draws both with one",
+        options.a, options.b);
+}
+
 int compare(const CompareOptions& options) {
     check(options);
     expect_different_files({options.a, options.b}, {options.diff});
     std::unique_ptr<AtomicFile> diff;
     if (!options.diff.empty()) diff = std::make_unique<AtomicFile>(options.diff);
     const Difference e = difference(load_image(options.a), load_image(options.b));
+    warn_of_cameras(options);
     const ImageError error = measure(e);
     if (diff) {
         const double range = options.range.value_or(error.all.linf);
