@@ -211,7 +211,8 @@ void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& 
     if (found.non_finite > 0 && scene.nan == NanPolicy::error) {
         fail(
             "{}: found {} NaN or infinite values of \"{}\", expected none; \"nan\": "
-            "\"transparent\" in the scene draws their tets as transparent",
+            "\"transparent\" in the scene (--set nan=transparent; in Python nan=\"transparent\") "
+            "draws their tets as transparent",
             name, found.non_finite, mesh.scalar.name);
     }
 }

@@ -304,7 +304,8 @@ void check_finite(const Scene& scene, const Grid& grid, const MinMaxBricks& bric
     if (bricks.non_finite > 0 && scene.nan == NanPolicy::error) {
         fail(
             "{}: found {} NaN or infinite samples of {}, expected none; \"nan\": \"transparent\" "
-            "in the scene draws their cells as transparent",
+            "in the scene (--set nan=transparent; in Python nan=\"transparent\") draws their cells "
+            "as transparent",
             name, bricks.non_finite, samples);
     }
 }

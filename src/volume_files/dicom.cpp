@@ -115,7 +115,7 @@ Images chosen_series(const Path& path, const VolumeRequest& request, VolumeConte
         all, {}, [](const auto& entry) { return slices_in(entry.second); });
     if (all.size() > 1) {
         say("{}: of the series {} the largest, {}, is drawn: \"array\" in the volume "
-            "names another",
+            "names another (--set volume.array=NAME)",
             path.string(), fmt::join(list, ", "), described(largest->second));
     }
     return std::move(largest->second);

@@ -258,8 +258,9 @@ class VtkHdfReader {
         }
         if (files_.has(scalars) && !scalars.empty()) return scalars;
         if (contents.arrays.size() > 1) {
-            say("{}: array {} of {} is taken: \"array\" in the volume names another", files_.name(),
-                one_line(contents.arrays[0]), contents.arrays.size());
+            say("{}: array {} of {} is taken: \"array\" in the volume names another (--set "
+                "volume.array=NAME)",
+                files_.name(), one_line(contents.arrays[0]), contents.arrays.size());
         }
         return contents.arrays[0];
     }

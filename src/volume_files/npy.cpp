@@ -193,7 +193,7 @@ class Npz {
                 path_.string());
         if (all.size() > 1)
             say("{}: array \"{}\" of \"{}\" is taken: \"array\" in the volume names "
-                "another",
+                "another (--set volume.array=NAME)",
                 path_.string(), found[0], fmt::join(all, "\", \""));
         return found[0];
     }

@@ -316,13 +316,13 @@ void say_taken(const std::string& file, Axes axes) {
         if (axis.unnamed) {
             const bool channels = std::string_view(axis.what) == "channel";
             say("{}: the axis of {} has no name and is taken for {}s, of which 0 is "
-                "shown: \"{}\" in the volume names another, \"{}\" takes the axis "
-                "for {}s",
-                file, axis.size, axis.what, axis.what, channels ? "time" : "channel",
+                "shown: \"{}\" in the volume names another (--set volume.{}=1), \"{}\" takes "
+                "the axis for {}s",
+                file, axis.size, axis.what, axis.what, axis.what, channels ? "time" : "channel",
                 channels ? "time" : "channel");
         } else {
-            say("{}: {} 0 of {} is taken: \"{}\" in the volume names another", file, axis.what,
-                axis.size, axis.what);
+            say("{}: {} 0 of {} is taken: \"{}\" in the volume names another (--set volume.{}=1)",
+                file, axis.what, axis.size, axis.what, axis.what);
         }
     }
 }

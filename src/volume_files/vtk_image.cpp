@@ -149,7 +149,8 @@ class VtkImage {
         if (found == offered.end()) found = offered.begin();
         array_ = **found;
         if (request_.array.empty() && offered.size() > 1) {
-            say("{}: array \"{}\" of {} is taken: \"array\" in the volume names another",
+            say("{}: array \"{}\" of {} is taken: \"array\" in the volume names another (--set "
+                "volume.array=NAME)",
                 head_.file, one_line(array_.name), offered.size());
         }
         if (use_.contents == nullptr) return;
