@@ -138,10 +138,23 @@ TEST_F(WordsRun, OptionsThatAreWrongAreNamed) {
            "--max-error: no such option, did you mean --set render.max_error=VALUE?");
     expect({"--set", "max_error=.1"},
            "--set max_error: unknown key, did you mean \"render.max_error\"?");
+    EXPECT_TRUE(lamina_run({"scene", folder / "v.nrrd"})
+                    .err.starts_with("lamina: scene: expected -o FILE: Scene file to write ("));
+    EXPECT_TRUE(lamina_run({"compare", "a.png"})
+                    .err.starts_with("lamina: compare: expected B: Picture to measure against"));
     expect({"--nothing-like-it"}, "--nothing-like-it: no such option (");
     expect({"-size", "20x10"},
            "-size: no such option, did you mean \"--size\"? (lamina render --help");
     expect({"w.nrrd"}, "w.nrrd: not expected here (lamina render --help shows");
+    write_bytes_to(folder / "w.nrrd", "");
+    expect({folder / "w.nrrd"},
+           std::string(folder / "w.nrrd") +
+               ": not expected here: lamina render takes one file at a time, as in for f in "
+               "*.nrrd; do lamina render \"$f\" -o \"${f%.*}.png\"; done (");
+    expect({"--set", "camera.fov_y", "20"},
+           "--set camera.fov_y: expected KEY=VALUE, did you mean --set camera.fov_y=20?");
+    expect({"--camera.fov_y", "20"},
+           "--camera.fov_y: no such option, did you mean --set camera.fov_y=VALUE?");
     const ProgramResult bare = lamina_run({"render", folder / "v.nrrd", "x.png"});
     EXPECT_NE(bare.err.find("x.png: not expected here, did you mean -o x.png?"), std::string::npos);
     EXPECT_NE(lamina_run({"rendr"}).err.find("rendr: unknown verb, did you mean \"render\"?"),
@@ -157,6 +170,27 @@ TEST_F(WordsRun, OptionsThatAreWrongAreNamed) {
     expect({"--fps", "2.5"}, "--fps: found 2.5, expected a whole number from 1 to 240 (");
     expect({"--fps", "300"}, "--fps: found 300, expected a whole number from 1 to 240 (");
     expect({"--turn-by", "200"}, "--turn-by: found 200, expected a number from -180 to 180 (");
+}
+
+// An option in place of a value is no value, unless it is joined to its option.
+TEST_F(WordsRun, AnOptionThatFollowsIsNoValue) {
+    const auto expect = [&](const std::vector<std::string>& more, const std::string& message) {
+        const ProgramResult result = run(more, "render", folder / "x.png");
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_TRUE(result.err.starts_with("lamina: " + message)) << result.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
+        EXPECT_FALSE(std::filesystem::exists("--quiet"));
+    };
+    expect({"--title", "--legend"},
+           "--title: found the option --legend, expected a value (--title=--legend if it is");
+    expect({"--title", "-o"}, "--title: found the option -o, expected a value");
+    expect({"--title", "--legnd"}, "--title: found the option --legnd, expected a value");
+    expect({"--stats", "--quiet"}, "--stats: found the option --quiet, expected a value");
+    expect({"--background", "--title", "T"}, "--background: found the option --title, expected");
+    expect({"--set", "--quiet"}, "--set: found the option --quiet, expected a value");
+    EXPECT_EQ(scene({"--title=--legend"})["image"]["annotations"]["title"], "--legend");
+    EXPECT_EQ(scene({"--title", "-5 K"})["image"]["annotations"]["title"], "-5 K");
+    EXPECT_EQ(scene({"--azimuth", "-30", "--up", "-x"}).count("camera"), 1u);
 }
 
 TEST_F(WordsRun, OutputsOfNoKnownKindSayWhichThereAre) {

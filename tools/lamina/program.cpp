@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -152,6 +153,35 @@ void fill_in_light(std::vector<char*>& arguments) {
     }
 }
 
+// Tells if a text looks like an option, not like a value: -30, -x, - and -1:2 are values.
+bool is_option(const CLI::App& verb, const std::string& text) {
+    const std::string name = text.substr(0, text.find('='));
+    if (name.size() > 2 && name.starts_with("--")) return std::isalpha(name[2]) != 0;
+    return name.starts_with("-") && verb.get_option_no_throw(name) != nullptr;
+}
+
+// Throws UsageError if an option follows one that needs a value: CLI11 takes it for the value.
+void check_values(const CLI::App& app, const std::vector<char*>& arguments) {
+    const std::vector<const CLI::App*> verbs =
+        app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == arguments[1]; });
+    if (verbs.empty()) return;
+    const CLI::App* const verb = verbs.front();
+    for (std::size_t i = 2; i + 1 < arguments.size(); ++i) {
+        const std::string name = arguments[i], next = arguments[i + 1];
+        if (name == "--") return;
+        const CLI::Option* const option =
+            name.starts_with("-") ? verb->get_option_no_throw(name) : nullptr;
+        if (option == nullptr || option->get_items_expected_min() == 0) continue;
+        if (is_option(*verb, next)) {
+            const std::string joined = name + (name.starts_with("--") ? "=" : "") + next;
+            throw UsageError(
+                fmt::format("{}: found the option {}, expected a value ({} if it is the value)",
+                            name, shortened(next), shortened(joined)));
+        }
+        ++i;
+    }
+}
+
 // Words that a script leaves empty would count as not given.
 std::string not_empty(const std::string& text) {
     return text.empty() ? "found '', expected a value" : "";
@@ -178,6 +208,49 @@ std::optional<std::string> text_of_number(const CLI::ParseError& error, const CL
     return std::nullopt;
 }
 
+// Returns what is wrong with a word that no option takes: a setting without "=", a second file, or
+// a picture without -o.
+std::string text_of_extra(const std::string& word, const CLI::App& verb) {
+    if (const CLI::Option* const set = verb.get_option_no_throw("--set")) {
+        for (const std::string& setting : set->results()) {
+            if (setting.find('=') == setting.npos)
+                return fmt::format("--set {}: expected KEY=VALUE, did you mean --set {}={}?",
+                                   shortened(setting), shortened(setting), shortened(word));
+        }
+    }
+    const CLI::Option* const output = verb.get_option_no_throw("--output");
+    if (output == nullptr) return word + ": not expected here";
+    if (output->empty()) return fmt::format("{0}: not expected here, did you mean -o {0}?", word);
+    if (!names_data(word)) return word + ": not expected here";
+    return fmt::format(
+        "{}: not expected here: lamina {} takes one file at a time, as in for f in *{}; do lamina "
+        "{} \"$f\" -o \"${{f%.*}}{}\"; done",
+        word, verb.get_name(), std::filesystem::path(word).extension().string(), verb.get_name(),
+        std::filesystem::path(output->as<std::string>()).extension().string());
+}
+
+// Returns what is missing if it is an option or a file that a verb needs, with its help's first
+// words; nothing of other errors.
+std::optional<std::string> text_of_missing(const CLI::ParseError& error, const CLI::App& app) {
+    if (dynamic_cast<const CLI::RequiredError*>(&error) == nullptr) return std::nullopt;
+    for (const CLI::App* const verb : app.get_subcommands()) {
+        for (const CLI::Option* const option : verb->get_options()) {
+            if (CLI::RequiredError(option->get_name()).what() != std::string_view(error.what()) ||
+                (!option->get_positional() && option->get_snames().empty()))
+                continue;
+            std::string name = option->get_name();
+            if (!option->get_positional()) name = "-" + option->get_snames().front();
+            if (const std::string& text = option->get_option_text(); !text.empty())
+                name += " " + text;
+            std::string help = option->get_description();
+            help.resize(std::min(help.size(), help.find_first_of(";(")));
+            while (help.ends_with(' ')) help.pop_back();
+            return fmt::format("{}: expected {}: {}", verb->get_name(), name, help);
+        }
+    }
+    return std::nullopt;
+}
+
 // Returns what CLI11 found wrong, for people.
 std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
     const std::string text = one_line(error.what());
@@ -187,6 +260,7 @@ std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
                            text.substr(at + twice.size()));
     }
     if (const auto number = text_of_number(error, app)) return *number;
+    if (const auto missing = text_of_missing(error, app)) return *missing;
     if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && text.ends_with(" missing"))
         return text.substr(0, text.find(':')) + ": expected a value after it";
     if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return text;
@@ -197,12 +271,7 @@ std::string text_of(const CLI::ParseError& error, const CLI::App& app) {
         const std::vector<std::string> extras = verb->remaining();
         if (extras.empty()) continue;
         const std::string& first = extras.front();
-        if (!first.starts_with("-")) {
-            const CLI::Option* const output = verb->get_option_no_throw("--output");
-            const bool is_output = output != nullptr && output->empty();
-            return fmt::format("{}: not expected here{}", first,
-                               is_output ? fmt::format(", did you mean -o {}?", first) : "");
-        }
+        if (!first.starts_with("-")) return text_of_extra(first, *verb);
         // A list of all options would say less than --help. -size is --size with a dash missing.
         const std::string whole = first.substr(0, first.find('='));
         const bool is_word = !whole.starts_with("--") && whole.size() > 2;
@@ -238,6 +307,7 @@ int run(const Program& program, int argc, char** argv) {
     }
     std::vector<char*> arguments = with_verb(app, argc, argv);
     fill_in_light(arguments);
+    check_values(app, arguments);
     try {
         app.parse(static_cast<int>(arguments.size()), arguments.data());
     } catch (const CLI::Success& success) {  // --help, --version

@@ -233,7 +233,7 @@ std::string scene_key_named(const std::string& word) {
             if (!schema.contains("properties")) continue;
             for (const auto& [key, inner] : schema["properties"].items()) {
                 const std::string whole = path.empty() ? key : path + "." + key;
-                if (key == word) return whole;
+                if (key == word || whole == word) return whole;
                 below.emplace_back(whole, inner);
             }
         }
