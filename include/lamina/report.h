@@ -29,6 +29,9 @@ struct ErrorFigure {
     ErrorKind kind = ErrorKind::unknown;
     double value = 0;       // 0 if unknown
     std::int64_t rays = 0;  // number of rays of trials and samples
+    // Bound, in 1/255, for rays that run along a surface at which the transfer function is steep,
+    // if `value` does not hold for them (docs/precision.md, "Jumps"). 0: it does.
+    double along_ramps = 0;
 
     // Returns the value, or nothing if it is unknown.
     std::optional<double> known() const {
@@ -38,7 +41,7 @@ struct ErrorFigure {
 };
 
 // Returns a text: "at most 0.05 / 255", "0.9 / 255 by trials on 1024 rays", "0.06 / 255, sampled on
-// 1024 rays", or "unknown".
+// 1024 rays", or "unknown". "; along ramps at most 9.5 / 255" follows if there is such a bound.
 LAMINA_API std::string text_of(const ErrorFigure& error);
 
 // Summary of the plan by which a picture is drawn.

@@ -79,6 +79,12 @@ class Picture:
         return self._drawn.error_kind
 
     @property
+    def error_along_ramps(self) -> float | None:
+        """A bound, in 1/255, on the error of rays that run along a surface at which the transfer function is steep, if
+        ``error`` does not hold for them; else ``None``."""
+        return self._drawn.error_along_ramps
+
+    @property
     def plan(self) -> Plan:
         """The way in which the picture was drawn."""
         scene, traced = self._drawn.scene, self._drawn.scene.method == "trace"

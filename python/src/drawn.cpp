@@ -50,12 +50,18 @@ std::string Drawn::error_kind() const {
     return is_traced() ? "estimated" : name_of(plan.error.kind);
 }
 
+std::optional<double> Drawn::error_along_ramps() const {
+    if (is_traced() || plan.error.along_ramps == 0) return std::nullopt;
+    return plan.error.along_ramps;
+}
+
 void bind_drawn(py::module_& module) {
     py::class_<Drawn>(module, "Drawn")
         .def_property_readonly("array", &Drawn::array)
         .def_property_readonly("annotations", &annotations_of)
         .def_property_readonly("error", &Drawn::error)
         .def_property_readonly("error_kind", &Drawn::error_kind)
+        .def_property_readonly("error_along_ramps", &Drawn::error_along_ramps)
         .def_readonly("scene", &Drawn::scene)
         .def_property_readonly("traced", [](const Drawn& drawn) { return drawn.truth != nullptr; })
         .def_property_readonly("target",

@@ -29,6 +29,8 @@ struct Drawn {
     // In 1/255: the plan's, or the tracer's estimate; none if it is unknown.
     std::optional<double> error() const;
     std::string error_kind() const;  // a word of ErrorKind, or "estimated" by the tracer
+    // In 1/255: bound for rays along ramps; none if error() holds for them, too.
+    std::optional<double> error_along_ramps() const;
 };
 
 void bind_drawn(py::module_& module);

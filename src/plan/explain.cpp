@@ -25,21 +25,22 @@ std::string line(const char* what, const std::string& value) {
     return fmt::format("  {:<14} {}\n", what, printable(value));
 }
 
-// Returns the error of a plan as text. If rays along surfaces may err by more, it tells so.
+// Returns the error of a plan as text. If it is unknown only for rays along surfaces, it tells so.
 std::string error_text(const Plan& plan) {
-    if (plan.method != Method::slice || plan.slice.ramp_error == 0) return text_of(plan.error());
+    if (plan.method != Method::slice || !std::isinf(plan.slice.surface_error))
+        return text_of(plan.error());
     SlicePlan others = plan.slice;
-    others.surface_error = 0;
-    const std::string error = text_of(others.error());
-    if (std::isinf(plan.slice.surface_error))
-        return fmt::format(
-            "unknown of rays that run along a surface at which the transfer function jumps or is "
-            "very steep; of all others {}",
-            error);
+    others.surface_error = others.ramp_error = 0;
     return fmt::format(
-        "{}; at most {:.3g} / 255 more of rays that run along a surface at which the transfer "
-        "function is steep",
-        text_of(plan.error()), plan.slice.ramp_error);
+        "unknown of rays that run along a surface at which the transfer function jumps or is very "
+        "steep; of all others {}",
+        text_of(others.error()));
+}
+
+// Returns the part of an error's text on rays along ramps, which may be empty.
+std::string text_along_ramps(const ErrorFigure& error) {
+    if (error.along_ramps == 0) return "";
+    return fmt::format("; along ramps at most {:.3g} / 255", error.along_ramps);
 }
 
 std::string with_reason(const char* name, const std::string& reason) {
@@ -179,7 +180,7 @@ std::string text_of(const ErrorFigure& error) {
         case ErrorKind::unknown:
             return "unknown";
         case ErrorKind::derived:
-            return fmt::format("at most {:.3g} / 255", error.value);
+            return fmt::format("at most {:.3g} / 255{}", error.value, text_along_ramps(error));
         case ErrorKind::trials:
             return fmt::format("{:.3g} / 255 by trials on {} rays", error.value, error.rays);
         case ErrorKind::sampled:

@@ -221,7 +221,11 @@ ErrorFigure SlicePlan::error() const {
     const double value = found_error() + *rounding_bound + surface_error;
     // An error of full scale says nothing.
     if (value >= 255) return {};
-    if (bounded) return {ErrorKind::derived, value, 0};
+    if (bounded) {
+        const bool leaves_out = ramp_error > 0 && !nothing_visible;
+        const double along_ramps = found_error() + *rounding_bound + ramp_error;
+        return {ErrorKind::derived, value, 0, leaves_out ? along_ramps : 0};
+    }
     return {ErrorKind::trials, value, slab_trial->rays};
 }
 

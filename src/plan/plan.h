@@ -237,7 +237,8 @@ struct SliceRemarks {
     // Infinite: more than max_error leaves, so that no error is stated.
     double surface_error = 0;
     // Bound on what they may change of a ray along any surface, in ramps, too, if that is more than
-    // max_error leaves; else 0. The picture's error does not count it (docs/precision.md, "Jumps").
+    // max_error leaves; else 0. The picture's error does not count it, but has it beside
+    // (ErrorFigure::along_ramps; docs/precision.md, "Jumps").
     double ramp_error = 0;
 
     friend bool operator==(const SliceRemarks&, const SliceRemarks&) = default;

@@ -74,6 +74,16 @@ TEST_F(Stats, EveryKeyThatIsWrittenIsDocumented) {
                {"--context", "cpu"});
     add_render({}, {"--context", "osmesa"});
     add_render({}, {"--method", "trace"});
+    const json plain = scene;
+    scene.erase("render");
+    scene["transfer_function"]["points"] = json::parse(R"([
+        {"value": 0, "color": [1, 1, 1], "extinction": 0},
+        {"value": 100, "color": [1, 1, 1], "extinction": 0},
+        {"value": 100.2, "color": [1, 1, 1], "extinction": 3e4},
+        {"value": 255, "color": [1, 1, 1], "extinction": 3e4}])");
+    add_render({"render.slice.classification=exact"}, {"--context", "cpu"});
+    EXPECT_TRUE(keys.contains("along_ramps"));  // a ramp of 3300 roundings of 255 / 2^22
+    scene = plain;
     scene["mesh"] = {{"kuhn", true}};
     for (const char* coloring : {"preintegrated", "attenuation", "vertex", "analytic"})
         add_render({std::string("render.project.coloring=") + coloring}, {"--method", "project"});

@@ -55,6 +55,13 @@ def test_pictures_outlive_their_session(blob, function):
     assert np.array_equal(array, expected)
 
 
+def test_rays_along_a_ramp_have_a_bound_of_their_own(blob, picture):
+    assert picture.error_along_ramps is None and lamina.trace(picture.scene).error_along_ramps is None
+    steep = lamina.TransferFunction([(0.6, "white", 0), (0.601, "white", 3e4)])
+    drawn = lamina.render(blob, steep, size=SIZE, context="cpu")
+    assert drawn.error_kind == "derived" and drawn.error < 1 < drawn.error_along_ramps <= 255 + drawn.error
+
+
 def test_what_is_known_of_it(picture):
     assert 0 < picture.error <= 1
     assert picture.plan.method == "slice" and picture.plan.target == "float32" and picture.plan.slabs >= 1

@@ -106,7 +106,7 @@ TEST(SurfaceError, CountsStepsAtTheEndsOfTheSamples) {
 }
 
 // A steep ramp may change a ray along its foot by more than max_error, but it is no jump: what is
-// stated holds of all other rays, and --explain has the bound of these.
+// stated holds of all other rays, and the bound of these stands beside it.
 TEST(SurfaceError, OfRampsIsSaidBesideThatOfAllOtherRays) {
     const Volume volume = ramp(0, .1);
     const Scene scene = along_surface(
@@ -120,8 +120,15 @@ TEST(SurfaceError, OfRampsIsSaidBesideThatOfAllOtherRays) {
     const double change = 2e4 * 0x1p-22 / .5 * std::hypot(10, 4, 20);
     EXPECT_GT(plan.slice.ramp_error, scene.max_error);
     EXPECT_LE(plan.slice.ramp_error, -255 * std::expm1(-change));
+    EXPECT_DOUBLE_EQ(plan.error().along_ramps, plan.error().value + plan.slice.ramp_error);
     EXPECT_THAT(explain(plan, facts, cpu_capabilities()),
-                testing::HasSubstr("more of rays that run along a surface"));
+                testing::HasSubstr("; along ramps at most"));
+}
+
+TEST(SurfaceError, OfRampsThatFitsIsPartOfTheError) {
+    const Scene scene = along_surface(
+        3, TransferFunction::linear({knot(.35, {1, 1, 1}, 0), knot(.85, {1, 1, 1}, 20)}));
+    EXPECT_EQ(claimed(ramp(0, .1), scene).along_ramps, 0);
 }
 
 TEST(SurfaceError, IsSmallWithoutSteps) {

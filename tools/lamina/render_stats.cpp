@@ -129,6 +129,7 @@ Json to_json(const ErrorFigure& error) {
     Json json{{"kind", name_of(error.kind)}, {"value", nullptr}};
     if (const auto known = error.known()) json["value"] = *known;
     if (error.rays > 0) json["rays"] = error.rays;
+    if (error.along_ramps > 0) json["along_ramps"] = error.along_ramps;
     return json;
 }
 
