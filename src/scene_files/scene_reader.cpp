@@ -2,6 +2,8 @@
 #include "scene_files/scene_reader.h"
 
 #include <algorithm>
+#include <cctype>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 #include "base/client.h"
@@ -113,15 +115,37 @@ std::vector<std::string> parts_of(const std::string& key) {
     }
 }
 
-// Returns `text` parsed as JSON, or the text itself if it is none.
-nlohmann::json value_of(const std::string& key, const std::string& text) {
+// Returns a number or a list of numbers as JSON wants it, 0.5 for .5 and 5.0 for 5.; other texts as
+// they are.
+std::string with_whole_fractions(const std::string& text) {
+    if (text.find_first_not_of("0123456789.,-+eE[] ") != text.npos) return text;
+    const auto is_digit = [&](std::size_t i) { return i < text.size() && std::isdigit(text[i]); };
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool before = i > 0 && is_digit(i - 1), after = is_digit(i + 1);
+        if (text[i] == '.' && !before && after) result += '0';
+        result += text[i];
+        if (text[i] == '.' && before && !after) result += '0';
+    }
+    return result;
+}
+
+// Returns `text` parsed as JSON; nothing if it is none.
+std::optional<nlohmann::json> parsed(const std::string& key, const std::string& text) {
     try {
         return parse_json(text);
     } catch (const JsonSyntaxError&) {
-        return text;
+        return std::nullopt;
     } catch (const Error& error) {
         throw UsageError(fmt::format("--set {}: {}", shortened(key), error.what()));
     }
+}
+
+// Returns `text` parsed as JSON, or the text itself if it is none.
+nlohmann::json value_of(const std::string& key, const std::string& text) {
+    if (auto value = parsed(key, text)) return *std::move(value);
+    if (auto number = parsed(key, with_whole_fractions(text))) return *std::move(number);
+    return text;
 }
 
 }  // namespace

@@ -110,6 +110,24 @@ TEST(SceneReader, ColormapGivesColorsAndPointsExtinction) {
                  {"transfer_function.colormap_range", "between -1e300 and 1e300"});
 }
 
+// JSON has no .5 and no 5., but people write them, and so do lamina's messages.
+TEST(SceneReader, SetTakesNumbersThatBeginOrEndWithAPoint) {
+    const auto set = [](const std::string& text) {
+        nlohmann::json document = nlohmann::json::object();
+        set_key(document, "key", text);
+        return document["key"];
+    };
+    EXPECT_EQ(set(".5"), .5);
+    EXPECT_EQ(set("-.25e1"), -2.5);
+    EXPECT_EQ(set("5."), 5.);
+    EXPECT_EQ(set("[.5,-.5, 2.,10.25]"), nlohmann::json({.5, -.5, 2., 10.25}));
+    EXPECT_EQ(set("."), ".");
+    EXPECT_EQ(set(".5.5"), ".5.5");
+    EXPECT_EQ(set("1.2.3."), "1.2.3.");
+    EXPECT_EQ(set("./5.nrrd"), "./5.nrrd");
+    EXPECT_EQ(set("a.5"), "a.5");
+}
+
 TEST(SceneReader, SetReachesKeysAndListElements) {
     nlohmann::json document = minimal_scene();
     set_key(document, "render.slice.samples", "512");
