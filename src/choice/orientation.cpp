@@ -17,7 +17,7 @@ constexpr double radians_per_degree = std::numbers::pi / 180;
 // The angles of the three-quarter view, in degrees.
 constexpr double three_quarter_azimuth = 30, three_quarter_elevation = 20;
 
-// An axis stands upright if it is this many times as long as each of the others.
+// An axis is the longest if it is this many times as long as each of the others.
 constexpr double upright_ratio = 1.25;
 
 // Data are flat if their height is less than this share of each other axis.
@@ -78,7 +78,7 @@ Lengths lengths_of(const std::array<glm::dvec3, 8>& corners) {
 }
 
 // Returns the axis along which the box is longest, if it is so by upright_ratio.
-std::optional<UpAxis> upright_axis(const Lengths& length) {
+std::optional<UpAxis> longest_axis(const Lengths& length) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double longest_other = std::max(length[(axis + 1) % 3], length[(axis + 2) % 3]);
         if (length[axis] > upright_ratio * longest_other) return static_cast<UpAxis>(2 * axis);
@@ -102,10 +102,13 @@ Orientation chosen_orientation(WorldAxes axes, const Lengths& length, bool axial
         return {front_of(UpAxis::minus_z), false,
                 "-z is up, as in axial slices of a body from head to feet, which these seem to be"};
     }
-    const auto upright = upright_axis(length);
-    if (!upright) return {front_of(UpAxis::plus_y), false, "y is up, no axis is much the longest"};
-    return {front_of(*upright), false,
-            fmt::format("{}, the longest axis, is up", name_of(*upright) + 1)};
+    const auto longest = longest_axis(length);
+    if (!longest) return {front_of(UpAxis::plus_y), false, "y is up, no axis is much the longest"};
+    // Rows of pictures that are wider than high stay level, and so does what lies along x.
+    if (*longest == UpAxis::plus_x)
+        return {front_of(UpAxis::plus_y), false, "y is up, x is the longest axis and lies level"};
+    return {front_of(*longest), false,
+            fmt::format("{}, the longest axis, is up", name_of(*longest) + 1)};
 }
 
 }  // namespace
