@@ -153,6 +153,9 @@ TEST_F(WordsRun, OptionsThatAreWrongAreNamed) {
                "*.nrrd; do lamina render \"$f\" -o \"${f%.*}.png\"; done (");
     expect({"--set", "camera.fov_y", "20"},
            "--set camera.fov_y: expected KEY=VALUE, did you mean --set camera.fov_y=20?");
+    expect({"--set", "camera.fov_y=20"}, "--set camera.fov_y: the camera of " +
+                                             std::string(folder / "v.nrrd") +
+                                             " is automatic, and one that is given needs its eye");
     expect({"--camera.fov_y", "20"},
            "--camera.fov_y: no such option, did you mean --set camera.fov_y=VALUE?");
     const ProgramResult bare = lamina_run({"render", folder / "v.nrrd", "x.png"});

@@ -188,6 +188,7 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
     };
     // Throws if the document is no object, in which no keys could be set.
     (void)JsonReader(document, file);
+    const bool open_camera = !document.contains("camera") || document["camera"] == "auto";
     std::vector<std::string> settings = more;
     settings.insert(settings.end(), options.settings.begin(), options.settings.end());
     for (const std::string& setting : settings) {
@@ -204,6 +205,13 @@ Scene load_scene(const SceneOptions& options, const std::vector<std::string>& mo
         return read_scene(document, file);
     } catch (const KeyError& error) {
         for (const std::string& key : keys) {
+            if (key.starts_with("camera.") && open_camera && error.key.starts_with("camera.") &&
+                std::ranges::find(keys, error.key) == keys.end()) {
+                throw UsageError(fmt::format(
+                    "--set {}: the camera of {} is automatic, and one that is given needs its eye "
+                    "and center, too: \"lamina scene\" writes it into a scene, to be changed there",
+                    key, file));
+            }
             if (error.key == key || key.starts_with(error.key + ".") ||
                 error.key.starts_with(key + ".")) {
                 const std::string inner = dynamic_cast<const UnknownKeyError*>(&error) != nullptr &&
