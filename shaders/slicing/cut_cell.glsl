@@ -3,7 +3,8 @@
 // scalar is a cubic of t = 0 .. 1. An interval lies between two neighbouring points of the transfer
 // function (knots). A part that stays in one interval and is shallow is integrated by one rule.
 // Other parts are cut where the scalar turns or crosses a knot (find_next_piece), and pieces that
-// are still too deep are shortened.
+// are still too deep are shortened. add_whole_part() and add_cut_part() have two forms, without
+// light here and with light in slicing/lit_cell.glsl.
 #include "optics/cell_optics.glsl"
 #include "slicing/ray_sum.glsl"
 
@@ -118,37 +119,44 @@ void advance(NextPiece next_piece, CellScalar scalar, bool whole, float extent, 
 #ifdef LIGHTS
 #include "slicing/lit_cell.glsl"
 #else
+// The part of a ray in one cell.
+struct CellPart {
+    CellScalar scalar;
+    float world_length;
+};
+
 // Adds the next piece of a part, or its beginning if it is too deep, and moves the place behind
 // what was added.
-void add_piece(CellScalar scalar, vec2 turns, float world_length, inout CutPlace place, inout RaySum sum) {
-    NextPiece next_piece = find_next_piece(scalar, turns, place);
+void add_piece(CellPart cell, vec2 turns, inout CutPlace place, inout RaySum sum) {
+    NextPiece next_piece = find_next_piece(cell.scalar, turns, place);
     float extent = max(next_piece.t_to - place.t, 0.0);
-    LinearPart part = piece_from(place, next_piece.interval, scalar.cubic, extent, next_piece.s_to, world_length);
+    LinearPart part =
+        piece_from(place, next_piece.interval, cell.scalar.cubic, extent, next_piece.s_to, cell.world_length);
 #ifdef SINGLE_COLOR
     const bool whole = true;
 #else
     bool whole = shorten(part, extent);
 #endif
     add_linear_part(next_piece.interval, part, depth_of(part), sum);
-    advance(next_piece, scalar, whole, extent, place);
+    advance(next_piece, cell.scalar, whole, extent, place);
 }
 
 // Adds a part piece by piece.
-void add_cut_part(CellScalar scalar, float world_length, inout RaySum sum) {
-    vec2 turns = cubic_turns(scalar.cubic);
-    CutPlace place = first_place(scalar, turns);
-    while (place.t < 1.0 && !is_opaque(sum)) add_piece(scalar, turns, world_length, place, sum);
+void add_cut_part(CellPart cell, inout RaySum sum) {
+    vec2 turns = cubic_turns(cell.scalar.cubic);
+    CutPlace place = first_place(cell.scalar, turns);
+    while (place.t < 1.0 && !is_opaque(sum)) add_piece(cell, turns, place, sum);
 }
 
-// Adds a part whose scalar is a cubic, by one rule if possible.
-void add_part(CellScalar scalar, float world_length, inout RaySum sum) {
-    vec2 range = scalar_range(scalar);
+// Adds a part by one rule if possible. Returns false if it must be cut.
+bool add_whole_part(inout CellPart cell, inout RaySum sum) {
+    vec2 range = scalar_range(cell.scalar);
     int lowest = find_interval(range.x);
 #ifdef SKIPS_HIDDEN_PARTS
-    if (is_hidden(lowest, range)) return;
+    if (is_hidden(lowest, range)) return true;
 #endif
     Interval interval = interval_at(lowest);
-    LinearPart part = linear_part(interval, scalar.cubic, world_length);
+    LinearPart part = linear_part(interval, cell.scalar.cubic, cell.world_length);
     bool crosses = range.y > interval.right_end;
     float depth = crosses ? 0.0 : depth_of(part);
     bool hard = crosses && range.y > interval.shown_beyond;
@@ -156,10 +164,6 @@ void add_part(CellScalar scalar, float world_length, inout RaySum sum) {
     hard = hard || depth > largest_part_depth;
 #endif
     if (!hard) add_linear_part(interval, part, depth, sum);
-    // This is a loop and not an if, because software rasterisers compute both sides of branches.
-    while (hard) {
-        add_cut_part(scalar, world_length, sum);
-        hard = false;
-    }
+    return !hard;
 }
 #endif

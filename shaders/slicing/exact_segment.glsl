@@ -3,6 +3,11 @@
 // section 9). The result is exact except for rounding and for Gauss' rules, so it does not depend
 // on how the ray is divided into segments. OCCUPIED_ONLY: leaps over empty space. ENDS_EARLY: ends
 // the ray once nothing behind is visible.
+//
+// A GPU and llvmpipe draw a group of 8 to 64 rays in step: all wait while one of them cuts a cell,
+// which takes several times as long as a cell that is not cut. So a cell waits to be cut, and what
+// lies behind it is added up apart, until a ray of the group finds a second one. Then all that wait
+// are cut at once. A ray's sums do not depend on when that is.
 #include "slicing/cell_cubic.glsl"
 #include "slicing/cell_ray.glsl"
 #include "slicing/cut_cell.glsl"
@@ -13,14 +18,36 @@
 uniform float opaque_depth;
 #endif
 
+// Tells whether a condition holds for a ray of the group. On drivers that cannot tell, each ray
+// cuts its own cells.
+#if defined(GL_ARB_shader_group_vote) && !defined(CUTS_ALONE)
+#define any_of_group(condition) anyInvocationARB(condition)
+#else
+#define any_of_group(condition) (condition)
+#endif
+
+// Cuts a part if it waits for that.
+void cut(CellPart part, inout bool waits, inout RaySum sum) {
+    // This is a loop and not an if, because software rasterisers compute both sides of branches.
+    while (waits) {
+        add_cut_part(part, sum);
+        waits = false;
+    }
+}
+
 // Adds the part of a ray between two depths to what the ray has passed.
 void integrate_cells(Ray ray, REAL2 depths, inout RaySum sum) {
     CellRay cells = cell_ray(ray);
     CellPlace at = place_at(ray, cells, depths.x);
     REAL left = depths.y - depths.x;
+    CellPart part;
 #ifdef LIGHTS
-    vec3 to_eye = -normalize(vec3(ray.direction) * spacing);
+    part.to_eye = -normalize(vec3(ray.direction) * spacing);
 #endif
+    // `sum` ends in front of the waiting part or, once that is cut, behind it.
+    CellPart waiting = part;
+    bool waits = false;
+    RaySum before = sum, behind = empty_sum;  // in front of the waiting part, and behind it
     while (left > REAL(0.0)) {
 #ifdef OCCUPIED_ONLY
         ivec3 brick = brick_of(at.cell);
@@ -38,19 +65,31 @@ void integrate_cells(Ray ray, REAL2 depths, inout RaySum sum) {
         // Roundings may leave a rest of the way behind the box's last cell.
         ivec3 cell = nearest_cell(at.cell);
         bool transparent;
-        CellScalar scalar = cell_scalar(cell, at.place + vec3(at.cell - cell), change, transparent);
-        float world_length = transparent ? 0.0 : way * float(ray.length_per_depth);
+        part.scalar = cell_scalar(cell, at.place + vec3(at.cell - cell), change, transparent);
+        part.world_length = transparent ? 0.0 : way * float(ray.length_per_depth);
 #ifdef LIGHTS
-        add_part(scalar, world_length, LitStep(at.cell, at.place, change, to_eye), sum);
-#else
-        add_part(scalar, world_length, sum);
+        part.cell = at.cell;
+        part.place = at.place;
+        part.change = change;
+        part.transmittance = before.transmittance * behind.transmittance;
 #endif
+        bool hard = !add_whole_part(part, behind);
+        if (any_of_group(hard && waits)) cut(waiting, waits, sum);
+        if (hard) {
+            put_behind(behind, sum);
+            before = sum;
+            behind = empty_sum;
+            waiting = part;
+            waits = true;
+        }
 #ifdef ENDS_EARLY
-        if (sum.depth >= opaque_depth) break;
+        if (before.depth + behind.depth >= opaque_depth) break;
 #endif
         bvec3 leaves = lessThanEqual(to_faces, vec3(way));
         at.place = mix(clamp(at.place + change, 0.0, 1.0), vec3(not(cells.forward)), leaves);
         at.cell += ivec3(leaves) * (2 * ivec3(cells.forward) - 1);
         left -= REAL(way);
     }
+    cut(waiting, waits, sum);
+    put_behind(behind, sum);
 }

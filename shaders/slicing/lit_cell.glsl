@@ -3,12 +3,15 @@
 // along which light bends too much are cut, too.
 #include "slicing/cell_light.glsl"
 
-// A part of a ray in one cell, from `place` to place + change, and the direction to the eye along
-// the grid's axes.
-struct LitStep {
+// The part of a ray in one cell, from `place` to place + change.
+struct CellPart {
+    CellScalar scalar;
+    float world_length;
     ivec3 cell;
     vec3 place, change;
-    vec3 to_eye;
+    vec3 to_eye;          // direction along the grid's axes
+    float transmittance;  // at least that of all in front of the part
+    float longest_piece;  // length of the first piece if the part is cut, as a share of it
 };
 
 // Lengths of the pieces of a part, as shares of it. `longest` doubles after two pieces of full
@@ -30,68 +33,69 @@ void choose_length(bool again, bool whole, bool full, float extent, inout PieceL
 
 // Adds the next piece of a part, or its beginning if it is too deep, and moves the place behind
 // what was added. If its light bends too much, nothing is added and the next piece is shorter.
-void add_lit_piece(CellScalar scalar, vec2 turns, float world_length, CellGradient gradient, vec3 to_eye,
-                   inout PieceLength pieces, inout CutPlace place, inout RaySum sum) {
-    NextPiece next_piece = find_next_piece(scalar, turns, place);
+void add_lit_piece(CellPart cell, vec2 turns, CellGradient gradient, inout PieceLength pieces, inout CutPlace place,
+                   inout RaySum sum) {
+    NextPiece next_piece = find_next_piece(cell.scalar, turns, place);
     float extent = max(next_piece.t_to - place.t, 0.0);
     bool to_end = extent <= pieces.longest;
     extent = min(extent, pieces.longest);
-    float at_end = to_end ? next_piece.s_to : scalar_at(scalar, place.t + extent);
-    LinearPart part = piece_from(place, next_piece.interval, scalar.cubic, extent, at_end, world_length);
+    float at_end = to_end ? next_piece.s_to : scalar_at(cell.scalar, place.t + extent);
+    LinearPart part =
+        piece_from(place, next_piece.interval, cell.scalar.cubic, extent, at_end, cell.world_length);
     bool whole = shorten(part, extent);
     float depth = depth_of(part), opacity = opacity_from_depth(depth);
     vec3 color = color_of(next_piece.interval, part, depth, opacity);
-    float bend = add_light(gradient, to_eye, next_piece.interval, part, place.t, extent, depth, opacity, color);
+    float bend = add_light(gradient, cell.to_eye, next_piece.interval, part, place.t, extent, depth, opacity, color);
     bool again = extent > shortest_lit_piece && bends(bend, sum.transmittance * opacity);
     choose_length(again, whole && to_end, whole && !to_end, extent, pieces);
     if (again) return;
     sum.depth += depth;
     composite(color, opacity, sum);
-    advance(next_piece, scalar, whole && to_end, extent, place);
+    advance(next_piece, cell.scalar, whole && to_end, extent, place);
 }
 
-// Adds a part piece by piece, the first one at most `longest`.
-void add_cut_part(CellScalar scalar, float world_length, CellGradient gradient, vec3 to_eye, float longest,
-                  inout RaySum sum) {
-    vec2 turns = cubic_turns(scalar.cubic);
-    CutPlace place = first_place(scalar, turns);
-    PieceLength pieces = PieceLength(longest, longest, false);
-    while (place.t < 1.0 && !is_opaque(sum))
-        add_lit_piece(scalar, turns, world_length, gradient, to_eye, pieces, place, sum);
+// Adds a part piece by piece.
+void add_cut_part(CellPart cell, inout RaySum sum) {
+    CellGradient gradient = cell_gradient(cell.cell, cell.place, cell.change);
+    vec2 turns = cubic_turns(cell.scalar.cubic);
+    CutPlace place = first_place(cell.scalar, turns);
+    PieceLength pieces = PieceLength(cell.longest_piece, cell.longest_piece, false);
+    while (place.t < 1.0 && !is_opaque(sum)) add_lit_piece(cell, turns, gradient, pieces, place, sum);
 }
 
-// Adds a part whose scalar is a cubic, by one rule if possible. `way`: its place in the cell.
-void add_part(CellScalar scalar, float world_length, LitStep way, inout RaySum sum) {
-    vec2 range = scalar_range(scalar);
+// Adds light to a part in one interval, and then the part to the sum if it needs no cut.
+bool add_lit_part(Interval interval, LinearPart part, float depth, inout CellPart cell, inout RaySum sum) {
+    CellGradient gradient = cell_gradient(cell.cell, cell.place, cell.change);
+    float opacity = opacity_from_depth(depth);
+    vec3 color = color_of(interval, part, depth, opacity);
+    float bend = add_light(gradient, cell.to_eye, interval, part, 0.0, 1.0, depth, opacity, color);
+    if (bends(bend, cell.transmittance * opacity)) {
+        cell.longest_piece = longest_piece(bend);
+        return false;
+    }
+    sum.depth += depth;
+    composite(color, opacity, sum);
+    return true;
+}
+
+// Adds a part by one rule if possible. Returns false if it must be cut.
+bool add_whole_part(inout CellPart cell, inout RaySum sum) {
+    vec2 range = scalar_range(cell.scalar);
     int lowest = find_interval(range.x);
 #ifdef SKIPS_HIDDEN_PARTS
-    if (is_hidden(lowest, range)) return;
+    if (is_hidden(lowest, range)) return true;
 #endif
     Interval interval = interval_at(lowest);
-    LinearPart part = linear_part(interval, scalar.cubic, world_length);
+    LinearPart part = linear_part(interval, cell.scalar.cubic, cell.world_length);
     bool crosses = range.y > interval.right_end;
     float depth = crosses ? 0.0 : depth_of(part);
     bool hard = crosses && range.y > interval.shown_beyond || depth > largest_part_depth;
-    bool shown = hard || depth > 0.0;
-    // These are loops and not ifs, because software rasterisers compute both sides of branches.
+    cell.longest_piece = 1.0;
+    bool shown = !hard && depth > 0.0;
+    // This is a loop and not an if, because software rasterisers compute both sides of branches.
     while (shown) {
         shown = false;
-        CellGradient gradient = cell_gradient(way.cell, way.place, way.change);
-        float longest = 1.0;
-        if (!hard) {
-            float opacity = opacity_from_depth(depth);
-            vec3 color = color_of(interval, part, depth, opacity);
-            float bend = add_light(gradient, way.to_eye, interval, part, 0.0, 1.0, depth, opacity, color);
-            longest = longest_piece(bend);
-            hard = bends(bend, sum.transmittance * opacity);
-            if (!hard) {
-                sum.depth += depth;
-                composite(color, opacity, sum);
-            }
-        }
-        while (hard) {
-            hard = false;
-            add_cut_part(scalar, world_length, gradient, way.to_eye, longest, sum);
-        }
+        hard = !add_lit_part(interval, part, depth, cell, sum);
     }
+    return !hard;
 }

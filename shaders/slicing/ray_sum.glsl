@@ -8,3 +8,10 @@ struct RaySum {
 };
 
 const RaySum empty_sum = RaySum(vec3(0.0), 0.0, 1.0);
+
+// Puts what a ray passes next behind a sum.
+void put_behind(RaySum next, inout RaySum sum) {
+    sum.color += sum.transmittance * next.color;
+    sum.depth += next.depth;
+    sum.transmittance *= next.transmittance;
+}

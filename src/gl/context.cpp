@@ -105,10 +105,12 @@ void set_rays(Capabilities& capabilities) {
             if (!has_extension("GL_ARB_shader_clock"))
                 fail("LAMINA_RAYS: sorted needs GL_ARB_shader_clock: {}", capabilities.renderer);
             capabilities.rays.sorted = true;
+        } else if (word == "alone") {
+            capabilities.rays.alone = true;
         } else {
             fail(
-                "LAMINA_RAYS: found {}, expected words, texels, 32, 64, 128, queue, blocks or "
-                "sorted",
+                "LAMINA_RAYS: found {}, expected words, texels, 32, 64, 128, queue, blocks, sorted "
+                "or alone",
                 word);
         }
     }

@@ -97,6 +97,10 @@ struct Composer {
         // Without this pragma NVIDIA's compiler turns (1 - p) - q into 1 - (p + q), and small
         // opacities lose their digits. Other compilers ignore it (GLSL 4.50, 3.3).
         append_text("#pragma optionNV(fastmath off)", place);
+        // Extensions stand in front of all else. A driver that has one defines its name.
+        append_text("#ifdef GL_ARB_shader_group_vote", place);
+        append_text("#extension GL_ARB_shader_group_vote : enable", place);
+        append_text("#endif", place);
         for (const auto& [name, value] : source.defines.list)
             append_text("#define " + name + ' ' + value, place);
     }

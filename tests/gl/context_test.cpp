@@ -57,9 +57,9 @@ class RaysVariable {
 };
 
 TEST(ContextRays, AreMarchedAsTheVariableSays) {
-    const RaysVariable set("texels,128,blocks,sorted");
+    const RaysVariable set("texels,128,blocks,sorted,alone");
     const auto context = Context::create(ContextKind::osmesa);
-    EXPECT_EQ(context->capabilities().rays, (RayDispatch{128, false, true, true}));
+    EXPECT_EQ(context->capabilities().rays, (RayDispatch{128, false, true, true, true}));
     EXPECT_EQ(context->capabilities().sample_words, false);
 }
 
@@ -68,7 +68,8 @@ TEST(ContextRays, RefuseOtherWords) {
     const RaysVariable unknown("texels,96");
     EXPECT_EQ(
         error_of(make),
-        "LAMINA_RAYS: found 96, expected words, texels, 32, 64, 128, queue, blocks or sorted");
+        "LAMINA_RAYS: found 96, expected words, texels, 32, 64, 128, queue, blocks, sorted or "
+        "alone");
     const RaysVariable queue("queue");
     expect_error(make, {"LAMINA_RAYS: queue is for GPUs"});
 }

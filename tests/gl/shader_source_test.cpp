@@ -34,6 +34,17 @@ std::string message_of(const Texts& texts, const std::string& name) {
     return "no error";
 }
 
+// The first lines of every composed shader (gl/program.cpp).
+const std::string prelude =
+    "#version 450 core\n#pragma optionNV(fastmath off)\n#ifdef GL_ARB_shader_group_vote\n"
+    "#extension GL_ARB_shader_group_vote : enable\n#endif\n";
+
+std::string repeated(const std::string& text, int times) {
+    std::string all;
+    for (int i = 0; i < times; ++i) all += text;
+    return all;
+}
+
 // Returns the origins of the lines of a composed shader: "a.frag:1 a.frag:2 ...".
 std::string places(const ShaderSource& source) {
     std::string text;
@@ -48,9 +59,8 @@ TEST(ShaderSource, InsertsDefinesAfterTheVersion) {
         compose({{"a.frag", "// licence\n#version 450 core\nvoid main() {}\n"}}, "a.frag",
                 Defines().set("N", 3).set("MODE", "fast"));
     EXPECT_EQ(source.text,
-              "// licence\n#version 450 core\n#pragma optionNV(fastmath off)\n#define N 3\n#define "
-              "MODE fast\nvoid main() {}\n");
-    EXPECT_EQ(places(source), "a.frag:1 a.frag:2 a.frag:2 a.frag:2 a.frag:2 a.frag:3");
+              "// licence\n" + prelude + "#define N 3\n#define MODE fast\nvoid main() {}\n");
+    EXPECT_EQ(places(source), "a.frag:1" + repeated(" a.frag:2", 7) + " a.frag:3");
     EXPECT_EQ(source.name, "a.frag");
 }
 
@@ -61,17 +71,17 @@ TEST(ShaderSource, GuardsIncludesAndTracksTheirLines) {
                                          {"lib/b.glsl", "#include \"lib/c.glsl\"\nB\n"},
                                          {"lib/c.glsl", "C"}},
                                         "a.frag");
-    EXPECT_EQ(source.text,
-              "#version 450 core\n#pragma optionNV(fastmath off)\n"
-              "#ifndef INCLUDED_FILE_0\n#define INCLUDED_FILE_0\n"
-              "#ifndef INCLUDED_FILE_1\n#define INCLUDED_FILE_1\nC\n#endif\n"
-              "B\n#endif\n"
-              "#ifndef INCLUDED_FILE_1\n#define INCLUDED_FILE_1\nC\n#endif\n"
-              "A\n");
+    EXPECT_EQ(source.text, prelude +
+                               "#ifndef INCLUDED_FILE_0\n#define INCLUDED_FILE_0\n"
+                               "#ifndef INCLUDED_FILE_1\n#define INCLUDED_FILE_1\nC\n#endif\n"
+                               "B\n#endif\n"
+                               "#ifndef INCLUDED_FILE_1\n#define INCLUDED_FILE_1\nC\n#endif\n"
+                               "A\n");
     EXPECT_EQ(
         places(source),
-        "a.frag:1 a.frag:1 a.frag:2 a.frag:2 lib/b.glsl:1 lib/b.glsl:1 lib/c.glsl:1 "
-        "lib/b.glsl:1 lib/b.glsl:2 a.frag:2 a.frag:3 a.frag:3 lib/c.glsl:1 a.frag:3 a.frag:4");
+        "a.frag:1" + repeated(" a.frag:1", 4) +
+            " a.frag:2 a.frag:2 lib/b.glsl:1 lib/b.glsl:1 lib/c.glsl:1 "
+            "lib/b.glsl:1 lib/b.glsl:2 a.frag:2 a.frag:3 a.frag:3 lib/c.glsl:1 a.frag:3 a.frag:4");
 }
 
 TEST(ShaderSource, NamesMissingFilesAndTheirIncluders) {

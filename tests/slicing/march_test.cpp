@@ -174,6 +174,24 @@ TEST_P(MarchTest, TilesSortedByCostDrawTheSame) {
     }
 }
 
+// Hard cells stand in many places of a wave, so that rays of a group meet their first, second, ...
+// one in different steps. Whose turn it is to cut must not change a bit, also if light is drawn.
+TEST_P(MarchTest, RaysThatCutAloneDrawTheSame) {
+    if (!gl::has_extension("GL_ARB_shader_group_vote")) GTEST_SKIP() << "no votes in shaders";
+    Capabilities alone = capabilities(), small = capabilities();
+    alone.rays.alone = true;
+    small.rays.group = 32;
+    Scene scene = scene_of(64, many_points());
+    Lighting lighting;
+    lighting.smallest_gradient = .01;
+    for (const bool lit : {false, true}) {
+        if (lit) scene.lighting = lighting;
+        const Image expected = render(volume_, scene, capabilities());
+        EXPECT_EQ(render(volume_, scene, alone).rgba, expected.rgba) << lit;
+        EXPECT_EQ(render(volume_, scene, small).rgba, expected.rgba) << lit;
+    }
+}
+
 // A shader copies the list, and says that the tile of a column and row of the picture takes
 // (3 column + 5 row) % 11; one was interrupted, which took almost 2^32. The drawn pixels begin
 // within a tile.

@@ -11,6 +11,7 @@ from gpu_check_parts.frames import TIMED, WARM_UP
 DRAWN = ("drawn as fragments", "", ["--no-omit=blending"])
 MARCHES = (("texels, 64", "texels,64", []), ("texels, 32", "texels,32", []), ("texels, 128", "texels,128", []),
            ("words, 64", "words,64", []), ("texels, 64, blocks", "texels,64,blocks", []),
+           ("texels, 64, alone", "texels,64,alone", []),
            ("texels, 64, sorted", "texels,64,sorted", []), ("texels, 64, queue", "texels,64,queue", []),
            ("texels, 64, sorted queue", "texels,64,sorted,queue", []), DRAWN)
 WALKS = (("rays walk", "", []), ("rays walk, blocks", "blocks", []), DRAWN)
