@@ -366,14 +366,15 @@ class TiffStack {
     std::shared_ptr<void> decoded(std::size_t bytes) {
         file_.reset();  // both processes would move its place
         const std::size_t plane = bytes / planes_.size();
-        return isolated_bytes(name_, "libtiff", bytes,
-                              bytes * static_cast<std::size_t>(page_.samples), [&](char* to) {
-                                  for (const Plane& each : planes_) {
-                                      open(each.file).go_to(each.page);
-                                      file_->read(each.page, each.sample, each.image, to);
-                                      to += plane;
-                                  }
-                              });
+        return isolated_bytes(
+            name_, "libtiff", bytes, bytes * static_cast<std::size_t>(page_.samples),
+            planes_.size(), [&](std::size_t first, std::size_t end, char* to) {
+                for (std::size_t i = first; i < end; ++i) {
+                    const Plane& each = planes_[i];
+                    open(each.file).go_to(each.page);
+                    file_->read(each.page, each.sample, each.image, to + i * plane);
+                }
+            });
     }
 
     // Describes planes that lie behind the first page's header, one after another.
