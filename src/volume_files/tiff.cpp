@@ -340,6 +340,8 @@ class TiffStack {
         Grid grid = plain_grid({page_.width, page_.height, slices_});
         for (int axis = 0; axis < 3; ++axis)
             grid.step[static_cast<std::size_t>(axis)] *= found_.spacing[axis];
+        if (slices_ == 1 && !found_.says_thickness)
+            grid.step[2] = slice_step(grid.step[0], grid.step[1]);
         grid.origin = found_.origin;
         grid.unit = unit_word(found_.unit);
         if (found_.writer == "OME") grid.axes = WorldAxes::named;

@@ -251,6 +251,7 @@ void set_distance(TiffDescription& to, const std::string& file, int axis, double
         }
     }
     to.spacing[axis] = distance;
+    to.says_thickness |= axis == 2;
 }
 
 TiffDescription tiff_description(const TiffBeginning& first) {

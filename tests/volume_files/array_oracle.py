@@ -145,6 +145,12 @@ def zarr_cases():
     zyx.create_dataset("s0", data=ramp, chunks=(10, 10, 10))
     zyx.attrs["multiscales"] = [{"version": "0.3", "axes": ["z", "y", "x"], "datasets": [{"path": "s0"}]}]
     case("zyx", "zyx.zarr", ramp)
+    # A slice is as thick as the shorter side of a pixel.
+    flat = zarr.open_group(f"{FOLDER}/slice.zarr", mode="w")
+    flat.create_dataset("s0", data=ramp[:2])
+    flat.attrs["multiscales"] = [{"version": "0.4", "axes": axes[1:2] + axes[3:], "datasets": [
+        {"path": "s0", "coordinateTransformations": [{"type": "scale", "scale": [1, .5, .25]}]}]}]
+    case("slice", "slice.zarr", ramp[1:2], [[.25, 0, 0], [0, .5, 0], [0, 0, .25]], channel=1)
 
 
 def zarr3_cases():
