@@ -428,10 +428,7 @@ class TiffStack {
                 return {};
         StoredData data = raw_data(planes_[0].file, planes_[0].page);
         data.axes = {page_.width, page_.height, slices_};
-        // Counted from the file's end, because directories follow.
-        const std::uint64_t end = begin + planes_.size() * plane;
-        data.byte_skip = static_cast<std::int64_t>(end) -
-                         static_cast<std::int64_t>(std::filesystem::file_size(data.files[0])) - 1;
+        place_raw(data, begin);
         say_taken(name_, taken_);
         return data;
     }

@@ -141,7 +141,7 @@ def ome_sets(cases, tifffile):
 def imagej(cases, tifffile):
     # A slice is as thick as the shorter side of a pixel, unless the file says more.
     flat = values_of("uint16", (10, 12), seed=45)
-    for file, thickness, more in (("flat.tif", .25, {}), ("thick.tif", 3, {"spacing": 3})):
+    for file, thickness, more in (("one_slice.tif", .25, {}), ("thick.tif", 3, {"spacing": 3})):
         tifffile.imwrite(cases.path(file), flat, imagej=True, resolution=(4, 2), metadata={"unit": "um", **more})
         cases.add(file, flat[None], np.diag([.25, .5, thickness]), unit="um")
     tifffile.imwrite(cases.path("flat.ome.tif"), flat, metadata={"axes": "YX", "PhysicalSizeX": .25, "PhysicalSizeY": .5})
