@@ -335,10 +335,7 @@ Volume open_pictures(const Path& path, const VolumeRequest& request, const Volum
 }
 
 std::vector<Path> files_of_pictures(const Path& path) {
-    if (!std::filesystem::is_directory(path)) return {path};
-    std::vector<Path> files = files_in_folder(path);
-    std::erase_if(files, [](const Path& file) { return !has_picture_mark(file); });
-    return files;
+    return known_files_in(path, has_picture_mark);
 }
 
 }  // namespace lamina

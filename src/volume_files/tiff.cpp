@@ -29,13 +29,6 @@ bool has_tiff_mark(const Path& path) {
     return magic == "II*\0"sv || magic == "MM\0*"sv || magic == "II+\0"sv || magic == "MM\0+"sv;
 }
 
-std::vector<Path> tiff_files_in(const Path& path) {
-    if (!std::filesystem::is_directory(path)) return {path};
-    std::vector<Path> files = files_in_folder(path);
-    std::erase_if(files, [](const Path& file) { return !has_tiff_mark(file); });
-    return files;
-}
-
 // Returns OME's XML for a file's description, which may leave it to another file.
 std::string ome_xml(const Path& file, const std::string& description) {
     const std::string metadata = files_of_ome(description).metadata;
@@ -49,7 +42,7 @@ std::string ome_xml(const Path& file, const std::string& description) {
 class TiffStack {
   public:
     TiffStack(const Path& path, const VolumeRequest& request)
-        : path_(path), name_(path.string()), files_(tiff_files_in(path)) {
+        : path_(path), name_(path.string()), files_(known_files_in(path, has_tiff_mark)) {
         if (files_.empty()) fail("{}: found no TIFF file in the folder", name_);
         const TiffBeginning first = beginning();
         is_colour_ = first.is_colour;
@@ -491,7 +484,7 @@ Volume open_tiff(const Path& path, const VolumeRequest& request, const VolumeUse
 }
 
 std::vector<Path> files_of_tiff(const Path& path) {
-    std::vector<Path> files = tiff_files_in(path);
+    std::vector<Path> files = known_files_in(path, has_tiff_mark);
     if (files.empty()) return files;
     const std::string description = TiffFile(files[0]).beginning().description;
     if (!is_ome(description)) return files;
