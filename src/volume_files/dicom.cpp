@@ -10,6 +10,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <map>
+#include <new>
 
 #include "base/client.h"
 #include "base/error.h"
