@@ -237,13 +237,24 @@ class RoleFinder {
     int is_taken_ = -1;  // the axis that unnamed_axis() has taken
 };
 
-// Returns the number for the axis `number` of the array, the `nth` of `count` in space.
+// Returns the number for the axis `number` of the array, the `nth` of `count` in space. Three
+// numbers are for z, y and x, of which a slice has the last two.
 std::optional<double> number_for(const std::vector<double>& numbers, int number, std::size_t nth,
                                  std::size_t rank, std::size_t count) {
     if (numbers.size() == count) return numbers[nth];
     if (numbers.size() == rank) return numbers[static_cast<std::size_t>(number)];
     if (numbers.size() == 1) return numbers[0];
+    if (numbers.size() == 3 && count == 2) return numbers[nth + 1];
     return {};
+}
+
+// Makes a slice of two axes as thick as three numbers say, else as slice_step() does. `axis`: the
+// grid's axis that the array has not.
+void set_thickness(const DescribedArray& array, std::size_t axis, Grid& grid) {
+    glm::dvec3& step = grid.step[axis];
+    step = array.steps.size() == 3 && array.axes.size() != 3
+               ? step * std::abs(array.steps[0])
+               : slice_step(grid.step[(axis + 1) % 3], grid.step[(axis + 2) % 3]);
 }
 
 // Places samples along one axis of the grid: its step and origin, in the unit that is returned.
@@ -416,6 +427,8 @@ ArrayPlace place_array(const DescribedArray& array, const VolumeRequest& request
         }
     }
     unite_units(array.name, place.grid, units);
+    if (const auto none = std::ranges::find(place.axes, -1); count == 2)
+        set_thickness(array, static_cast<std::size_t>(none - place.axes.begin()), place.grid);
     if (roles.is_named) place.grid.axes = WorldAxes::named;
     check_grid(array.name, place.grid, {"coordinates", "coordinates"});
 

@@ -4,11 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <map>
+#include <new>
 
 #include "base/client.h"
 #include "base/error.h"
@@ -339,20 +341,33 @@ class SliceReader {
         const auto compressed = [](const DicomSlice& slice) { return slice.image->compressed; };
         if (std::ranges::none_of(series_.slices, compressed)) {
             samples_.bytes = filled_memory(bytes_);
-            read_to(static_cast<char*>(samples_.bytes.get()));
+            read_images(0, series_.images.size(), static_cast<char*>(samples_.bytes.get()));
+            say_padding(padded_);
             return samples_;
         }
         std::size_t largest = 0;  // image that is decoded as a whole
         for (const DicomImage& image : series_.images)
             largest = std::max(largest, image.byte_count());
-        samples_.bytes = isolated_bytes(series_.name, "GDCM", bytes_, bytes_ + largest,
-                                        [&](char* to) { read_to(to); });
+        const std::shared_ptr<void> counted = memory_for_processes(sizeof(Count));
+        Count& padded = *new (counted.get()) Count(0);
+        samples_.bytes =
+            isolated_bytes(series_.name, "GDCM", bytes_, bytes_ + largest, series_.images.size(),
+                           [&](std::size_t first, std::size_t end, char* to) {
+                               read_images(first, end, to);
+                               padded += padded_;
+                           });
+        say_padding(padded);
         return samples_;
     }
 
   private:
-    void read_to(char* const samples) {
-        for (const DicomImage& image : series_.images) {
+    using Count = std::atomic<std::size_t>;
+    static_assert(Count::is_always_lock_free);  // else processes would not share it
+
+    // Reads the slices of the images [first, end) to their places in `samples`.
+    void read_images(std::size_t first, std::size_t end, char* const samples) {
+        for (std::size_t i = first; i < end; ++i) {
+            const DicomImage& image = series_.images[i];
             std::optional<DicomPixels> pixels;
             char* to = samples;
             for (const auto& [its_image, frame] : series_.slices) {
@@ -364,11 +379,13 @@ class SliceReader {
                 to += slice_values_ * bytes_of(samples_.type);
             }
         }
-        if (padded_ > 0) {
-            say("{}: PixelPaddingValue: found it {} times: these samples hold no data, and "
-                "are drawn like others",
-                series_.name, padded_);
-        }
+    }
+
+    void say_padding(std::size_t samples) const {
+        if (samples == 0) return;
+        say("{}: PixelPaddingValue: found it {} times: these samples hold no data, and are drawn "
+            "like others",
+            series_.name, samples);
     }
 
     void read_slice(const DicomPixels& pixels, const DicomImage& image, const DicomFrame& frame,

@@ -190,7 +190,8 @@ void Hdf5Volume::find_chunks() {
     chunk_bytes_ = chunk.empty() ? 0 : bytes_of(array_.type());
     for (const std::int64_t edge : chunk) chunk_bytes_ *= static_cast<std::size_t>(edge);
     const bool as_stored = head_.place.is_in_order() && axes[0] >= 0 && axes[1] >= 0 &&
-                           !values_.can_be_missing() && head_.files.size() == 1;
+                           !values_.can_be_missing() && head_.files.size() == 1 &&
+                           layout_.size == std::array<std::int64_t, 3>{};
     if (!as_stored) return;
     if (const auto raw = array_.raw_place()) head_.raw = *raw;
 }
@@ -451,7 +452,7 @@ StoredData raw_data(const std::filesystem::path& file, const Hdf5Head& head) {
     if (axes[2] < 0) data.axes.emplace_back(1);
     set_byte_order(data, head.raw.big_endian);
     data.files = {file};
-    data.offset = head.raw.offset;
+    place_raw(data, static_cast<std::uint64_t>(head.raw.offset));
     return data;
 }
 
@@ -486,10 +487,10 @@ Volume open_hdf5(const std::filesystem::path& path, const VolumeRequest& request
                    std::make_unique<FileSource>(raw_data(named.file, head), head.place.grid.size))
             .measuring(quantity);
     }
-    return drawn_volume(head.place.grid,
-                        {path.string(), head.type, process->read_all(), head.scale, head.offset},
-                        use.lookup)
-        .measuring(quantity);
+    StoredSamples samples{path.string(), head.type, nullptr, head.scale, head.offset};
+    samples.bytes =
+        head.raw.offset < 0 ? process->read_all() : read_stored(raw_data(named.file, head)).bytes;
+    return drawn_volume(head.place.grid, samples, use.lookup).measuring(quantity);
 }
 
 std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::path& path) {

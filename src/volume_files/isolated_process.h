@@ -57,10 +57,15 @@ class IsolatedProcess {
     bool ended_ = false;
 };
 
-// Calls `fill` in an isolated process, and returns the `bytes` bytes of memory that it has filled.
-// `decoded`: how many bytes the library decodes for that, which bounds its time and memory.
-std::shared_ptr<void> isolated_bytes(const std::string& name, const char* library,
-                                     std::size_t bytes, std::size_t decoded,
-                                     const std::function<void(char*)>& fill);
+// Returns memory of zeros that this process shares with those that it starts later.
+std::shared_ptr<void> memory_for_processes(std::size_t bytes);
+
+// Calls fill(first, end, memory) in isolated processes, one for each core: each decodes its part of
+// `items` pictures into its part of the `bytes` bytes of memory that are returned. `decoded`: how
+// many bytes the library decodes for all, which bounds the time and memory of each. Few bytes take
+// one process.
+std::shared_ptr<void> isolated_bytes(
+    const std::string& name, const char* library, std::size_t bytes, std::size_t decoded,
+    std::size_t items, const std::function<void(std::size_t, std::size_t, char*)>& fill);
 
 }  // namespace lamina

@@ -142,11 +142,8 @@ class Npz {
         const bool in_place = member->is_stored() && !array.is_half && !array.is_fortran &&
                               FileSource::can_read(array.data);
         if (in_place && stays_in_files(plain_grid(array.size), *drawn_type(array.data.type), use)) {
-            // Counted from the file's end, because other members follow.
-            const std::uint64_t end = archive_.place_of(*member) + member->bytes;
             array.data.files = {path_};
-            array.data.byte_skip = static_cast<std::int64_t>(end) -
-                                   static_cast<std::int64_t>(std::filesystem::file_size(path_)) - 1;
+            place_raw(array.data, archive_.place_of(*member) + begin);
             return open_stored(plain_grid(array.size), array.data, use);
         }
         expect_room(

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -128,6 +129,14 @@ std::vector<std::filesystem::path> files_in_folder(const std::filesystem::path& 
     std::ranges::sort(files, [](const auto& a, const auto& b) {
         return comes_before(a.filename().string(), b.filename().string());
     });
+    return files;
+}
+
+std::vector<std::filesystem::path> known_files_in(const std::filesystem::path& path,
+                                                  bool (*is_known)(const std::filesystem::path&)) {
+    if (!std::filesystem::is_directory(path)) return {path};
+    std::vector<std::filesystem::path> files = files_in_folder(path);
+    std::erase_if(files, std::not_fn(is_known));
     return files;
 }
 

@@ -51,6 +51,10 @@ std::optional<std::vector<std::string>> names_of(const FilePattern& pattern, std
 // names: a2 before a10. Returns none if the folder cannot be read.
 std::vector<std::filesystem::path> files_in_folder(const std::filesystem::path& folder);
 
+// Returns those of these files that `is_known` accepts; of a path that is no folder, itself.
+std::vector<std::filesystem::path> known_files_in(const std::filesystem::path& path,
+                                                  bool (*is_known)(const std::filesystem::path&));
+
 // Returns "3, 7 to 9": the numbers between those of an increasing series that are no steps of it.
 std::string gaps_of(const std::vector<std::int64_t>& numbers);
 

@@ -325,21 +325,17 @@ Volume open_pictures(const Path& path, const VolumeRequest& request, const Volum
     StoredSamples samples{name, word == 1 ? ValueType::uint8 : ValueType::uint16, nullptr};
     // Decoders take up to 16 bytes for a pixel of a few pictures (CodedImage, libjpeg's scans).
     const std::size_t decoded = bytes * static_cast<std::size_t>(kind.channels) + 16 * each;
-    samples.bytes = isolated_bytes(name, "libpng or libjpeg", bytes, decoded, [&](char* to) {
-        for (const Path& file : files) {
-            read_picture(file, kind, static_cast<int>(*channel.taken), to);
-            to += each;
-        }
-    });
+    const auto read = [&](std::size_t first, std::size_t end, char* to) {
+        for (std::size_t i = first; i < end; ++i)
+            read_picture(files[i], kind, static_cast<int>(*channel.taken), to + i * each);
+    };
+    samples.bytes = isolated_bytes(name, "libpng or libjpeg", bytes, decoded, files.size(), read);
     return drawn_volume(plain_grid({kind.width, kind.height, std::ssize(files)}), samples,
                         use.lookup);
 }
 
 std::vector<Path> files_of_pictures(const Path& path) {
-    if (!std::filesystem::is_directory(path)) return {path};
-    std::vector<Path> files = files_in_folder(path);
-    std::erase_if(files, [](const Path& file) { return !has_picture_mark(file); });
-    return files;
+    return known_files_in(path, has_picture_mark);
 }
 
 }  // namespace lamina

@@ -356,6 +356,16 @@ void set_data_files(StoredData& data, const std::vector<std::string>& names,
     }
 }
 
+void place_raw(StoredData& data, std::uint64_t begin) {
+    const std::uint64_t end =
+        begin + stored_bytes(data.path.string(), data.axes, bytes_of(data.type));
+    const std::uint64_t size = std::filesystem::file_size(data.files[0]);
+    // Counted from the file's end: what is behind is no surplus. A file that is too short is
+    // refused when it is read.
+    data.byte_skip =
+        end > size ? static_cast<std::int64_t>(begin) : -1 - static_cast<std::int64_t>(size - end);
+}
+
 StoredSamples read_stored(const StoredData& data) {
     say_taken(data.path.string(), data.axes);
     return StoredReader(data).read();

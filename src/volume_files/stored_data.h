@@ -94,6 +94,10 @@ void expect_named_file(const std::filesystem::path& file, const std::string& wha
 void set_data_files(StoredData& data, const std::vector<std::string>& names,
                     const std::optional<std::size_t>& axes_each, const char* field);
 
+// Places raw data at byte `begin` of their only file, which may have other bytes behind them. Axes,
+// type and file must be set before.
+void place_raw(StoredData& data, std::uint64_t begin);
+
 // Reads what is taken of the data. Takes memory only after it has checked that the files can hold
 // what the header promises; a warning counts surplus bytes. Throws Error.
 StoredSamples read_stored(const StoredData& data);

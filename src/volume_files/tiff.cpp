@@ -2,6 +2,7 @@
 #include "volume_files/volume_formats.h"
 
 #include <algorithm>
+#include <bit>
 #include <glm/vec3.hpp>
 #include <map>
 #include <set>
@@ -9,6 +10,7 @@
 #include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
+#include "base/memory.h"
 #include "volume_files/isolated_process.h"
 #include "volume_files/numbered_files.h"
 #include "volume_files/tiff_description.h"
@@ -27,13 +29,6 @@ bool has_tiff_mark(const Path& path) {
     return magic == "II*\0"sv || magic == "MM\0*"sv || magic == "II+\0"sv || magic == "MM\0+"sv;
 }
 
-std::vector<Path> tiff_files_in(const Path& path) {
-    if (!std::filesystem::is_directory(path)) return {path};
-    std::vector<Path> files = files_in_folder(path);
-    std::erase_if(files, [](const Path& file) { return !has_tiff_mark(file); });
-    return files;
-}
-
 // Returns OME's XML for a file's description, which may leave it to another file.
 std::string ome_xml(const Path& file, const std::string& description) {
     const std::string metadata = files_of_ome(description).metadata;
@@ -47,7 +42,7 @@ std::string ome_xml(const Path& file, const std::string& description) {
 class TiffStack {
   public:
     TiffStack(const Path& path, const VolumeRequest& request)
-        : path_(path), name_(path.string()), files_(tiff_files_in(path)) {
+        : path_(path), name_(path.string()), files_(known_files_in(path, has_tiff_mark)) {
         if (files_.empty()) fail("{}: found no TIFF file in the folder", name_);
         const TiffBeginning first = beginning();
         is_colour_ = first.is_colour;
@@ -69,15 +64,14 @@ class TiffStack {
         if (use.contents != nullptr) *use.contents = contents();
         const std::size_t bytes = stored_bytes(name_, sizes(), bytes_of(type_));
         StoredSamples samples{name_, type_, nullptr, found_.scale, found_.shift};
-        if (is_behind_) {
-            const StoredData data = data_behind();
-            if (!page_.is_half()) return open_stored(grid(), data, use);
+        if (const std::optional<StoredData> data = is_behind_ ? data_behind() : data_in_a_row()) {
+            if (!page_.is_half()) return open_stored(grid(), *data, use);
             expect_room(name_, 2 * bytes, use, "its samples are floats of 16 bits");
-            samples = read_stored(data);
+            samples = read_stored(*data);
         } else {
-            expect_room(name_, bytes, use, "TIFF is read as a whole");
+            expect_room(name_, bytes, use, "its pages are packed, or do not lie in a row");
             say_taken(name_, taken_);
-            samples.bytes = decoded(bytes);
+            samples.bytes = are_raw() ? read_as_they_are(bytes) : decoded(bytes);
         }
         const Grid there = grid();
         return drawn_volume(
@@ -339,6 +333,8 @@ class TiffStack {
         Grid grid = plain_grid({page_.width, page_.height, slices_});
         for (int axis = 0; axis < 3; ++axis)
             grid.step[static_cast<std::size_t>(axis)] *= found_.spacing[axis];
+        if (slices_ == 1 && !found_.says_thickness)
+            grid.step[2] = slice_step(grid.step[0], grid.step[1]);
         grid.origin = found_.origin;
         grid.unit = unit_word(found_.unit);
         if (found_.writer == "OME") grid.axes = WorldAxes::named;
@@ -362,40 +358,98 @@ class TiffStack {
         return contents;
     }
 
+    // Tells if all planes lie in the files as they are. A page of several images says in strips
+    // where the first is.
+    bool are_raw() const {
+        return page_.depth == 1 && std::ranges::all_of(planes_, [](const Plane& each) {
+                   return each.page.raw.has_value();
+               });
+    }
+
+    // Reads planes that lie in the files as they are, whose samples take `bytes` bytes.
+    std::shared_ptr<void> read_as_they_are(std::size_t bytes) {
+        std::shared_ptr<void> samples = filled_memory(bytes);
+        auto* to = static_cast<char*>(samples.get());
+        const std::size_t plane = bytes / planes_.size();
+        const std::int64_t together = page_.planar ? 1 : page_.samples;
+        ByteBuffer pixels(together > 1 ? plane * static_cast<std::size_t>(together) : 0);
+        std::optional<RandomAccessFile> file;
+        for (const Plane& each : planes_) {
+            check_interrupt();
+            if (&each == &planes_[0] || each.file != (&each - 1)->file)
+                file.emplace(files_[each.file]);
+            if (together > 1) {
+                const StoredAxis axes[] = {{together, each.sample}, page_.width * page_.height};
+                file->read(*each.page.raw, pixels.data(), pixels.size());
+                take_of_memory(pixels.data(), axes, bytes_of(type_), to);
+            } else {
+                file->read(*each.page.raw + static_cast<std::size_t>(each.sample) * plane, to,
+                           plane);
+            }
+            if (each.page.is_big_endian != (std::endian::native == std::endian::big))
+                swap_bytes(to, page_.width * page_.height, bytes_of(type_));
+            to += plane;
+        }
+        return samples;
+    }
+
     // Decodes the planes, whose samples take `bytes` bytes.
     std::shared_ptr<void> decoded(std::size_t bytes) {
         file_.reset();  // both processes would move its place
         const std::size_t plane = bytes / planes_.size();
-        return isolated_bytes(name_, "libtiff", bytes,
-                              bytes * static_cast<std::size_t>(page_.samples), [&](char* to) {
-                                  for (const Plane& each : planes_) {
-                                      open(each.file).go_to(each.page);
-                                      file_->read(each.page, each.sample, each.image, to);
-                                      to += plane;
-                                  }
-                              });
+        return isolated_bytes(
+            name_, "libtiff", bytes, bytes * static_cast<std::size_t>(page_.samples),
+            planes_.size(), [&](std::size_t first, std::size_t end, char* to) {
+                for (std::size_t i = first; i < end; ++i) {
+                    const Plane& each = planes_[i];
+                    open(each.file).go_to(each.page);
+                    file_->read(each.page, each.sample, each.image, to + i * plane);
+                }
+            });
+    }
+
+    // Describes planes that lie in a file one after another, as raw data do; else returns nothing.
+    std::optional<StoredData> data_in_a_row() {
+        if (!are_raw() || (page_.samples > 1 && !page_.planar)) return {};
+        const std::size_t plane = stored_bytes(name_, sizes(), bytes_of(type_)) / planes_.size();
+        const auto place = [&](const Plane& each) {
+            return *each.page.raw + static_cast<std::size_t>(each.sample) * plane;
+        };
+        const std::uint64_t begin = place(planes_[0]);
+        for (std::size_t i = 0; i < planes_.size(); ++i)
+            if (planes_[i].file != planes_[0].file || place(planes_[i]) != begin + i * plane)
+                return {};
+        StoredData data = raw_data(planes_[0].file, planes_[0].page);
+        data.axes = {page_.width, page_.height, slices_};
+        place_raw(data, begin);
+        say_taken(name_, taken_);
+        return data;
     }
 
     // Describes planes that lie behind the first page's header, one after another.
     StoredData data_behind() {
-        open(0).go_to(page_);
-        const auto begin = file_->raw_samples();
-        if (!begin)
+        if (!page_.raw)
             fail(
                 "{}: found 1 page of several planes, whose samples are not in one piece and "
                 "uncompressed, expected a page for each plane",
                 name_);
-        StoredData data;
-        data.path = path_;
-        data.teller = "the description";
-        data.type = type_;
+        StoredData data = raw_data(0, page_);
         data.axes = taken_;
         const bool together = page_.samples > 1 && !page_.planar;
         const StoredAxis plane[] = {page_.width, page_.height};
         data.axes.insert(data.axes.begin() + together, std::begin(plane), std::end(plane));
-        set_byte_order(data, file_->is_big_endian());
-        data.files = {files_[0]};
-        data.byte_skip = *begin;
+        data.byte_skip = static_cast<std::int64_t>(*page_.raw);
+        return data;
+    }
+
+    // Describes samples of a file that begin in a page, but for their axes and place.
+    StoredData raw_data(std::size_t file, const TiffPage& page) const {
+        StoredData data;
+        data.path = path_;
+        data.teller = "the description";
+        data.type = type_;
+        set_byte_order(data, page.is_big_endian);
+        data.files = {files_[file]};
         data.scale = found_.scale;
         data.shift = found_.shift;
         return data;
@@ -430,7 +484,7 @@ Volume open_tiff(const Path& path, const VolumeRequest& request, const VolumeUse
 }
 
 std::vector<Path> files_of_tiff(const Path& path) {
-    std::vector<Path> files = tiff_files_in(path);
+    std::vector<Path> files = known_files_in(path, has_tiff_mark);
     if (files.empty()) return files;
     const std::string description = TiffFile(files[0]).beginning().description;
     if (!is_ome(description)) return files;

@@ -66,7 +66,7 @@ void take_calibration(const TiffBeginning& first, const ImageJValues& values, Ti
     };
     const char* const keys[] = {"xorigin", "yorigin", "zorigin"};
     for (int axis = 0; axis < 3; ++axis)
-        to.origin[axis] = -number(keys[axis], 0) * to.spacing[axis];
+        to.origin[axis] = 0 - number(keys[axis], 0) * to.spacing[axis];  // 0 has no sign
     if (!values.contains("cf")) return;
     constexpr double straight_line = 0, none = 20;  // ImageJ's Calibration.java
     if (number("cf", none) == straight_line && number("c1", 0) != 0) {
@@ -251,6 +251,7 @@ void set_distance(TiffDescription& to, const std::string& file, int axis, double
         }
     }
     to.spacing[axis] = distance;
+    to.says_thickness |= axis == 2;
 }
 
 TiffDescription tiff_description(const TiffBeginning& first) {

@@ -45,6 +45,7 @@ struct TiffDescription {
     std::string writer;          // "ImageJ", "OME" or "tifffile"; empty: pages are slices
     std::vector<TiffAxis> axes;  // of planes, fastest first
     glm::dvec3 spacing{1, 1, 1}, origin{0, 0, 0};
+    bool says_thickness = false;  // spacing along z
     std::string unit;
     double scale = 1, shift = 0;         // StoredSamples::scale and offset
     std::string type;                    // of samples, as OME calls it

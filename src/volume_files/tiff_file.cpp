@@ -130,7 +130,8 @@ void TiffFile::check_last_link(std::uint64_t place) const {
     const bool is_big = mark[2] == '+' || mark[3] == '+';
     const std::size_t count_bytes = is_big ? 8 : 2, entry_bytes = is_big ? 20 : 12;
     file.read(place, bytes, count_bytes);
-    const bool swap = is_big_endian() == (std::endian::native == std::endian::little);
+    const bool swap =
+        (TIFFIsBigEndian(tiff_.get()) != 0) == (std::endian::native == std::endian::little);
     const std::uint64_t entries =
         is_big ? values_from_bytes<std::uint64_t>(ValueType::uint64, bytes, 1, swap)[0]
                : values_from_bytes<std::uint64_t>(ValueType::uint16, bytes, 1, swap)[0];
@@ -173,6 +174,8 @@ TiffPage TiffFile::page() const {
         fail("{}: page {}: found {} x {} pixels of {} samples, expected 1 or more", name_,
              number_ + 1, page.width, page.height, page.samples);
     }
+    page.raw = raw_samples(page);
+    page.is_big_endian = TIFFIsBigEndian(tiff_.get()) != 0;
     return page;
 }
 
@@ -200,17 +203,33 @@ void TiffFile::read(const TiffPage& page, std::int64_t sample, std::int64_t imag
     read_strips(page, sample, to);
 }
 
-std::optional<std::int64_t> TiffFile::raw_samples() const {
-    if (is_packed() || is_tiled() || page().is_bitwise()) return {};
+// Returns TiffPage::raw. Strips must follow each other without gaps: then their places need no
+// list.
+std::optional<std::uint64_t> TiffFile::raw_samples(const TiffPage& page) const {
     TIFF* const tiff = tiff_.get();
-    for (std::uint32_t i = 0; i + 1 < TIFFNumberOfStrips(tiff); ++i) {
-        if (TIFFGetStrileOffset(tiff, i) + TIFFGetStrileByteCount(tiff, i) !=
-            TIFFGetStrileOffset(tiff, i + 1))
-            return {};
-    }
+    const bool as_read =
+        !is_packed() && !is_tiled() && !page.is_bitwise() && page.bits <= 64 &&
+        field<std::uint16_t>(TIFFTAG_FILLORDER, FILLORDER_MSB2LSB) == FILLORDER_MSB2LSB &&
+        field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) != PHOTOMETRIC_YCBCR;
+    const std::size_t row_bytes = stored_row(page, page.width * (page.planar ? 1 : page.samples));
+    const std::int64_t rows = rows_of_strips(page);
     const std::uint64_t begin = TIFFGetStrileOffset(tiff, 0);
-    if (begin > file_bytes_) return {};  // negative places count from the file's end
-    return static_cast<std::int64_t>(begin);
+    if (!as_read || rows < 1 || TIFFScanlineSize64(tiff) != row_bytes || row_bytes > file_bytes_ ||
+        begin > file_bytes_)
+        return {};
+    std::uint64_t at = begin;
+    std::uint32_t strip = 0;
+    for (std::int64_t plane = 0; plane < (page.planar ? page.samples : 1); ++plane) {
+        for (std::int64_t row = 0; row < page.height; row += rows, ++strip) {
+            const std::uint64_t there = TIFFGetStrileByteCount(tiff, strip);
+            const auto bytes =
+                static_cast<std::uint64_t>(std::min(rows, page.height - row)) * row_bytes;
+            if (TIFFGetStrileOffset(tiff, strip) != at || there < bytes || file_bytes_ - at < bytes)
+                return {};
+            at += bytes;
+        }
+    }
+    return begin;
 }
 
 TiffBeginning TiffFile::beginning() const {
@@ -302,6 +321,11 @@ void TiffFile::check_tags(bool described) const {
             name_, x, y, units[std::min<int>(unit, 3)]);
 }
 
+std::int64_t TiffFile::rows_of_strips(const TiffPage& page) const {
+    return std::min<std::int64_t>(field<std::uint32_t>(TIFFTAG_ROWSPERSTRIP, 0xffffffff),
+                                  page.height);
+}
+
 bool TiffFile::is_packed() const {
     return field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE;
 }
@@ -351,8 +375,7 @@ void TiffFile::read_strips(const TiffPage& page, std::int64_t sample, char* to) 
     const std::size_t word = bytes_of(page.type(name_));
     const std::int64_t together = page.planar ? 1 : page.samples;  // samples beside each other
     const std::size_t row_bytes = stored_row(page, page.width * together);
-    const std::int64_t rows =
-        std::min<std::int64_t>(field<std::uint32_t>(TIFFTAG_ROWSPERSTRIP, 0xffffffff), page.height);
+    const std::int64_t rows = rows_of_strips(page);
     if (rows < 1 || TIFFScanlineSize64(tiff_.get()) != row_bytes)
         fail("{}: page {}: its strips do not hold whole rows", name_, number_ + 1);
     const std::int64_t strips = (page.height + rows - 1) / rows;

@@ -24,6 +24,9 @@ struct TiffPage {
     bool planar = false;       // each sample of a pixel in a plane of its own
     bool is_reduced = false;   // a smaller copy of another page, or a mask
     std::uint16_t bits = 1, format = SAMPLEFORMAT_UINT;  // of a sample
+    // Byte of the file at which its samples begin if they lie there as they are, in one piece.
+    std::optional<std::uint64_t> raw;
+    bool is_big_endian = false;
 
     // Tells if samples are not whole bytes, but beside each other in the bits of a row.
     bool is_bitwise() const { return bits % 8 != 0; }
@@ -59,19 +62,16 @@ class TiffFile {
     void check_tags(bool described) const;
 
     bool is_tiled() const { return TIFFIsTiled(tiff_.get()) != 0; }
-    bool is_big_endian() const { return TIFFIsBigEndian(tiff_.get()) != 0; }
     // Returns the most bytes of samples in the file, if all pages are packed like this one.
     std::uint64_t capacity() const;
-    // Returns the byte of the file at which the page's samples begin if they lie there as they are,
-    // in one piece; else nothing.
-    std::optional<std::int64_t> raw_samples() const;
-
     // Reads one sample of all pixels of one of the page's images, row by row, in native byte order:
     // width * height values.
     void read(const TiffPage& page, std::int64_t sample, std::int64_t image, char* to);
 
   private:
     bool is_packed() const;
+    std::int64_t rows_of_strips(const TiffPage& page) const;
+    std::optional<std::uint64_t> raw_samples(const TiffPage& page) const;
     void check_compression() const;
     // Throws Error if the file ends before the last page says whether another follows: libtiff
     // takes that for the end of the pages. `place`: byte of the file at which its directory lies.

@@ -87,7 +87,8 @@ std::vector<std::filesystem::path> files_of_vti(const std::filesystem::path& pat
 // TIFF or BigTIFF with every compression that libtiff knows: slices are the pages of a file, or of
 // a folder's files by the numbers in their names; all have one size and type. Samples of a pixel
 // are channels; descriptions by ImageJ, OME or tifffile give channels, times and distances. An OME
-// data set may have several files and images, of which `request.array` names one.
+// data set may have several files and images, of which `request.array` names one. Slices one behind
+// the other that are not compressed can stay in their file.
 bool is_tiff(const std::filesystem::path& path);
 Volume open_tiff(const std::filesystem::path& path, const VolumeRequest& request,
                  const VolumeUse& use);

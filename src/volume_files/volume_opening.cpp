@@ -112,8 +112,9 @@ void turn_to_lps(Grid& grid, WorldAxes axes) {
     if (axes == WorldAxes::unnamed) return;
     const glm::dvec3 turn{axes == WorldAxes::right_anterior_superior ? -1 : 1,
                           axes == WorldAxes::left_posterior_superior ? 1 : -1, 1};
-    grid.origin *= turn;
-    for (glm::dvec3& step : grid.step) step *= turn;
+    constexpr double zero = 0;  // -0 becomes 0
+    grid.origin = grid.origin * turn + zero;
+    for (glm::dvec3& step : grid.step) step = step * turn + zero;
     grid.axes = WorldAxes::left_posterior_superior;
 }
 

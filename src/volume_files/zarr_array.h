@@ -35,6 +35,18 @@ const ZarrCodec* zarr_codec(std::string_view name, int version);
 void decode_chunk(std::span<const ZarrCodec* const> codecs, std::span<const char> stored,
                   std::span<char> chunk, const std::string& name);
 
+// A filter of numcodecs, which turns a chunk into as many other bytes before it is packed: the
+// bytes of elements by their number in each, or elements as differences from the one before.
+struct ZarrFilter {
+    enum class Kind { shuffle, delta } kind;
+    std::size_t word;   // bytes of an element
+    bool swap = false;  // elements are not in this machine's byte order
+    bool are_floats = false;
+};
+
+// Undoes filters, which are in the order in which they encode.
+void undo_filters(std::span<const ZarrFilter> filters, std::span<char> chunk);
+
 // Chunks that lie together in one file (sharding codec, version 1.0). An index says where each
 // begins and how many bytes it has.
 struct ZarrShards {
@@ -60,6 +72,7 @@ struct ZarrArray {
     std::optional<std::array<char, 8>> fill;
     std::string fill_text;
     std::vector<const ZarrCodec*> codecs;  // of a chunk, in the order in which they encode
+    std::vector<ZarrFilter> filters;       // of version 2, in that order, too, before the codecs
     std::optional<ZarrShards> shards;
     std::string key_begin;        // before the indices in the name of a file
     char separator = '.';         // between the indices

@@ -274,6 +274,7 @@ ByteBuffer ZarrChunks::decoded(std::int64_t chunk) const {
     ByteBuffer halves(array_.is_half ? samples.size() / 2 : 0);
     ByteBuffer& decoded = array_.is_half ? halves : samples;
     decode_chunk(array_.codecs, stored.text(), decoded.span(), name);
+    undo_filters(array_.filters, decoded.span());
     if (array_.swap)
         swap_bytes_alone(decoded.data(), array_.chunk_samples(), array_.stored_bytes());
     for (std::size_t i = 0; i < halves.size() / 2; ++i) {

@@ -3,6 +3,7 @@
 #include "volume_files/zarr_array.h"
 
 #include <blosc.h>
+#include <bzlib.h>
 #include <lz4.h>
 #include <zlib.h>
 #include <zstd.h>
@@ -16,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/input_file.h"
+#include "volume_files/stored_samples.h"
 
 namespace lamina {
 namespace {
@@ -68,6 +70,51 @@ bool decode_blosc(std::span<const char> stored, std::span<char> chunk) {
            static_cast<int>(size);
 }
 
+bool decode_bz2(std::span<const char> stored, std::span<char> chunk) {
+    if (!std::in_range<unsigned>(stored.size()) || !std::in_range<unsigned>(chunk.size()))
+        return false;
+    auto size = static_cast<unsigned>(chunk.size());
+    const int result =
+        BZ2_bzBuffToBuffDecompress(chunk.data(), &size, const_cast<char*>(stored.data()),
+                                   static_cast<unsigned>(stored.size()), 0, 0);
+    if (result == BZ_MEM_ERROR) throw std::bad_alloc();
+    return result == BZ_OK && size == chunk.size();
+}
+
+// Puts byte b of element i, which lies at b * count + i, back to i * word + b.
+void unshuffle(std::size_t word, std::span<char> chunk) {
+    const std::size_t count = chunk.size() / word;
+    const std::vector<char> stored(chunk.begin(), chunk.end());
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t b = 0; b < word; ++b) chunk[i * word + b] = stored[b * count + i];
+}
+
+// Adds up differences; whole numbers wrap, as NumPy's do.
+template <typename Value>
+void add_up(std::span<char> chunk) {
+    Value sum = 0, difference = 0;
+    for (std::size_t at = 0; at < chunk.size(); at += sizeof sum) {
+        std::memcpy(&difference, &chunk[at], sizeof sum);
+        sum = static_cast<Value>(sum + difference);
+        std::memcpy(&chunk[at], &sum, sizeof sum);
+    }
+}
+
+void undo_delta(const ZarrFilter& filter, std::span<char> chunk) {
+    const auto count = static_cast<std::int64_t>(chunk.size() / filter.word);
+    if (filter.swap) swap_bytes_alone(chunk.data(), count, filter.word);
+    if (filter.are_floats) {
+        filter.word == 4 ? add_up<float>(chunk) : add_up<double>(chunk);
+    } else {
+        const auto add = filter.word == 1   ? add_up<std::uint8_t>
+                         : filter.word == 2 ? add_up<std::uint16_t>
+                         : filter.word == 4 ? add_up<std::uint32_t>
+                                            : add_up<std::uint64_t>;
+        add(chunk);
+    }
+    if (filter.swap) swap_bytes_alone(chunk.data(), count, filter.word);
+}
+
 constexpr std::size_t checksum_bytes = 4;
 
 // CRC-32C of each byte: Castagnoli's polynomial, reflected.
@@ -94,10 +141,13 @@ bool verify_checksum(std::span<const char> stored, std::span<char> chunk) {
     return true;
 }
 
-constexpr ZarrCodec zarr_codecs[] = {
-    {"blosc", true, true, decode_blosc}, {"zlib", true, false, inflate_all},
-    {"gzip", true, true, inflate_all},   {"zstd", true, true, decode_zstd},
-    {"lz4", true, false, decode_lz4},    {"crc32c", false, true, verify_checksum, true}};
+constexpr ZarrCodec zarr_codecs[] = {{"blosc", true, true, decode_blosc},
+                                     {"zlib", true, false, inflate_all},
+                                     {"gzip", true, true, inflate_all},
+                                     {"zstd", true, true, decode_zstd},
+                                     {"lz4", true, false, decode_lz4},
+                                     {"bz2", true, false, decode_bz2},
+                                     {"crc32c", false, true, verify_checksum, true}};
 
 }  // namespace
 
@@ -107,6 +157,15 @@ const ZarrCodec* zarr_codec(std::string_view name, int version) {
             return &codec;
     }
     return nullptr;
+}
+
+void undo_filters(std::span<const ZarrFilter> filters, std::span<char> chunk) {
+    for (std::size_t i = filters.size(); i-- > 0;) {
+        if (filters[i].kind == ZarrFilter::Kind::shuffle)
+            unshuffle(filters[i].word, chunk);
+        else
+            undo_delta(filters[i], chunk);
+    }
 }
 
 void decode_chunk(std::span<const ZarrCodec* const> codecs, std::span<const char> stored,

@@ -115,10 +115,24 @@ def zarr_cases():
     case("group_told", "group.zarr", ramp[:3, :3, :3], array="a/two")
     bad("group_several", "group.zarr", "a/one, a/two", "expected one")
     bad("group_none", "group.zarr", "b/one", array="b/one")
-    save_zarr("delta", ramp, filters=[numcodecs.Delta("<u2")])
-    bad("delta", "delta.zarr", "filters", "delta")
-    save_zarr("bz2", ramp, compressor=numcodecs.BZ2())
-    bad("bz2", "bz2.zarr", "compressor", "bz2", "blosc")
+    case("bz2", save_zarr("bz2", ramp, compressor=numcodecs.BZ2()), ramp)
+    save_zarr("lzma", ramp, compressor=numcodecs.LZMA())
+    bad("lzma", "lzma.zarr", "compressor", "lzma", "blosc")
+    save_zarr("scaled", ramp, filters=[numcodecs.FixedScaleOffset(0, 1, "<u2")])
+    bad("scaled", "scaled.zarr", "filters", "fixedscaleoffset", "shuffle, delta")
+    for dtype in ("|u1", "<i2", ">u2", "<i8", ">f4", "<f8"):
+        array = samples(dtype)
+        name = f"filters_{dtype[0] == '>'}{dtype[1:]}"
+        # Both filters, of which shuffle sees what delta has made, and an array with a last chunk that is cut.
+        filters = [numcodecs.Delta(dtype), numcodecs.Shuffle(np.dtype(dtype).itemsize)]
+        if dtype[1] == "f":
+            filters = filters[1:]  # sums of differences are rounded
+        path = save_zarr(name, array, chunks=(2, 4, 3), filters=filters, order="F" if dtype == "<i2" else "C")
+        case(name, path, array)
+    whole = np.arange(5 * 6 * 7, dtype="<f4").reshape(5, 6, 7) * 3
+    case("filters_sums", save_zarr("filters_sums", whole, chunks=(2, 4, 3), filters=[numcodecs.Delta("<f4")]), whole)
+    rounded = save_zarr("quantized", samples("<f4"), filters=[numcodecs.Quantize(2, "<f4")])
+    case("quantized", rounded, zarr.open(f"{FOLDER}/{rounded}")[...])
     for dtype in ("<f2", ">f2"):
         half = samples(dtype)
         # Subnormal, infinite and no numbers, too.
@@ -145,6 +159,12 @@ def zarr_cases():
     zyx.create_dataset("s0", data=ramp, chunks=(10, 10, 10))
     zyx.attrs["multiscales"] = [{"version": "0.3", "axes": ["z", "y", "x"], "datasets": [{"path": "s0"}]}]
     case("zyx", "zyx.zarr", ramp)
+    # A slice is as thick as the shorter side of a pixel.
+    flat = zarr.open_group(f"{FOLDER}/slice.zarr", mode="w")
+    flat.create_dataset("s0", data=ramp[:2])
+    flat.attrs["multiscales"] = [{"version": "0.4", "axes": axes[1:2] + axes[3:], "datasets": [
+        {"path": "s0", "coordinateTransformations": [{"type": "scale", "scale": [1, .5, .25]}]}]}]
+    case("slice", "slice.zarr", ramp[1:2], [[.25, 0, 0], [0, .5, 0], [0, 0, .25]], channel=1)
 
 
 def zarr3_cases():

@@ -67,5 +67,32 @@ TEST(IsolatedProcess, CutsLongTextsOffAndGoesOn) {
                  {std::string(1 << 16, 'e')});
 }
 
+// 9 items of 4 MiB take several processes if there are cores for them.
+TEST(IsolatedBytes, FillEachItemOnceInItsPlace) {
+    constexpr std::size_t items = 9, each = std::size_t{4} << 20;
+    const auto filled = isolated_bytes("name", "library", items * each, items * each, items,
+                                       [&](std::size_t first, std::size_t end, char* to) {
+                                           for (std::size_t i = first; i < end; ++i)
+                                               for (std::size_t j = 0; j < each; ++j)
+                                                   to[i * each + j] += static_cast<char>(i + 1);
+                                       });
+    const auto* const bytes = static_cast<const char*>(filled.get());
+    for (std::size_t i = 0; i < items * each; ++i)
+        ASSERT_EQ(bytes[i], static_cast<char>(i / each + 1)) << i;
+}
+
+// The first part's error counts, whichever comes first.
+TEST(IsolatedBytes, PassOnTheErrorOfOnePart) {
+    constexpr std::size_t items = 9, each = std::size_t{4} << 20;
+    expect_error(
+        [] {
+            isolated_bytes("name", "library", items * each, items * each, items,
+                           [](std::size_t, std::size_t end, char*) {
+                               if (end == items) fail("name: item {}", end - 1);
+                           });
+        },
+        {"name: item 8"});
+}
+
 }  // namespace
 }  // namespace lamina

@@ -2,6 +2,8 @@
 // NRRD files with several channels or times, in several files, and of every scalar type.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "nrrd_files.h"
 #include "support/expect_error.h"
 #include "support/heard_warnings.h"
@@ -189,6 +191,7 @@ TEST_F(NrrdAxes, NamedSpacesOfPatientsBecomeLps) {
         EXPECT_EQ(grid.step[0], glm::dvec3(3, 4, 0));
         EXPECT_EQ(grid.step[1], glm::dvec3(-4, 3, 0));
         EXPECT_EQ(grid.step[2], glm::dvec3(0, 0, 2));
+        EXPECT_FALSE(std::signbit(grid.step[2].x) || std::signbit(grid.step[2].y));  // no -0
     }
     // Grids in other spaces, which name no directions of the body, stay as they are.
     const Grid other =

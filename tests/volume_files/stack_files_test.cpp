@@ -140,7 +140,34 @@ TEST(ImageJStacks, BehindOnePageStayInTheirFile) {
     }
     write(folder / "b.tif", tiff_of(pixels, 12, text));
     expect_error([&] { open_volume(folder / "b.tif", {}, test::in_files); },
-                 {"b.tif", "read as a whole", "lamina index --bricks"});
+                 {"b.tif", "do not lie in a row", "lamina index --bricks"});
+}
+
+// Pages of one channel, whose samples lie one behind the other, and two that change places.
+TEST(TiffPages, InARowStayInTheirFile) {
+    const TemporaryFolder folder;
+    const std::string pixels = test::noise_bytes(4 * width * height);
+    std::string file = tiff_of(pixels, 4, "ImageJ=1.53\nimages=4\nslices=4\n");
+    write(folder / "a.tif", file);
+    const test::HeardWarnings heard;
+    const Volume whole = read_volume(folder / "a.tif");
+    EXPECT_EQ(std::memcmp(whole.data(), pixels.data(), pixels.size()), 0);
+    test::expect_boxes(whole, open_volume(folder / "a.tif", {}, test::in_files));
+    EXPECT_TRUE(heard.texts.empty());
+    // Page 3 takes the samples of page 2, whose place stands once in the file.
+    std::string second, third;
+    const std::size_t first = file.find(pixels), plane = width * height;
+    add32(second, first + plane);
+    add32(third, first + 2 * plane);
+    file.replace(file.find(third, first + pixels.size()), 4, second);
+    write(folder / "b.tif", file);
+    const Volume changed = read_volume(folder / "b.tif");
+    const auto* const samples = static_cast<const char*>(changed.data());
+    EXPECT_EQ(std::memcmp(samples, pixels.data(), 2 * plane), 0);
+    EXPECT_EQ(std::memcmp(samples + 2 * plane, &pixels[plane], plane), 0);
+    EXPECT_EQ(std::memcmp(samples + 3 * plane, &pixels[3 * plane], plane), 0);
+    expect_error([&] { open_volume(folder / "b.tif", {}, test::in_files); },
+                 {"b.tif", "do not lie in a row"});
 }
 
 TEST(ImageJStacks, NameFramesByTheirTimes) {

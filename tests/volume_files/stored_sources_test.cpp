@@ -8,7 +8,9 @@
 
 #include "expect_boxes.h"
 #include "nrrd_files.h"
+#include "support/heard_warnings.h"
 #include "volume/volume_store.h"
+#include "volume_files/stored_data.h"
 #include "volume_files/volume_file.h"
 
 namespace lamina {
@@ -159,6 +161,22 @@ TEST_F(StoredSources, AChunkThatChangesIsAnError) {
             volume.store().source().read({{0, 0, 0}, {31, 17, 23}}, samples.data());
         },
         {"0.1.0", "changed"});
+}
+
+// Raw data inside a file of another format: what is behind them is no surplus.
+TEST_F(StoredSources, PlaceRawDataAmongOtherBytes) {
+    StoredData data;
+    data.path = write("a.bin", "head" + std::string("12345678") + "behind");
+    data.files = {data.path};
+    data.axes = {2, 2, 2};
+    const test::HeardWarnings heard;
+    place_raw(data, 4);
+    const StoredSamples samples = read_stored(data);
+    EXPECT_EQ(std::string(static_cast<const char*>(samples.bytes.get()), 8), "12345678");
+    EXPECT_TRUE(heard.texts.empty());
+    write("a.bin", "head1234567");
+    place_raw(data, 4);
+    expect_error([&] { read_stored(data); }, {"a.bin", "8 bytes", "holds 7 bytes"});
 }
 
 TEST_F(StoredSources, RefuseWhatMustBeReadAsAWhole) {

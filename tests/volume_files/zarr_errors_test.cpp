@@ -290,13 +290,14 @@ TEST(OtherStores, AreRefusedByName) {
 
 // A library that crashes or hangs in an isolated process does not end this one.
 TEST(IsolatedRead, CrashesAndHangsAreErrors) {
-    expect_error([] { isolated_bytes("a.h5", "libx", 1, 1, [](char*) { std::abort(); }); },
-                 {"a.h5", "libx ended with signal"});
-    expect_error([] { isolated_bytes("a.h5", "libx", 1, 1, [](char*) { fail("a.h5: no"); }); },
-                 {"a.h5: no"});
+    const auto filling = [](const std::function<void()>& fill) {
+        isolated_bytes("a.h5", "libx", 1, 1, 1, [&](std::size_t, std::size_t, char*) { fill(); });
+    };
+    expect_error([&] { filling([] { std::abort(); }); }, {"a.h5", "libx ended with signal"});
+    expect_error([&] { filling([] { fail("a.h5: no"); }); }, {"a.h5: no"});
     expect_error(
-        [] {
-            isolated_bytes("a.h5", "libx", 1, 1, [](char*) {
+        [&] {
+            filling([] {
                 for (volatile bool never = false; !never;) {
                 }
             });

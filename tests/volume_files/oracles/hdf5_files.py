@@ -227,6 +227,10 @@ def lengths(h5py, cases, write, add, bad):
     write("offset.h5", array.transpose(2, 1, 0), {"axes": "xyz", "resolution": [.9, .7, 2.5], "offset": [1., 2., 3.],
                                                   "resolution_unit": "nm"})
     add("offset.h5", array, steps, (1, 2, 3), unit="nm")
+    # A slice is as thick as the shorter side of a pixel, or as three numbers say.
+    for number, (given, spacing) in enumerate((([.7, .9], (.9, .7, .7)), ([2.5, .7, .9], (.9, .7, 2.5)))):
+        write(f"flat{number}.h5", array[0], {"element_size_um": given})
+        add(f"flat{number}.h5", array[:1], diagonal(*spacing), unit="um", array="/v")
     write("one.h5", array, {"voxel_size": .25})
     add("one.h5", array, diagonal(.25, .25, .25))
     write("zero.h5", array, {"resolution": [0., 1, 1]})

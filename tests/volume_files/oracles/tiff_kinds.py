@@ -139,6 +139,13 @@ def ome_sets(cases, tifffile):
 
 
 def imagej(cases, tifffile):
+    # A slice is as thick as the shorter side of a pixel, unless the file says more.
+    flat = values_of("uint16", (10, 12), seed=45)
+    for file, thickness, more in (("one_slice.tif", .25, {}), ("thick.tif", 3, {"spacing": 3})):
+        tifffile.imwrite(cases.path(file), flat, imagej=True, resolution=(4, 2), metadata={"unit": "um", **more})
+        cases.add(file, flat[None], np.diag([.25, .5, thickness]), unit="um")
+    tifffile.imwrite(cases.path("flat.ome.tif"), flat, metadata={"axes": "YX", "PhysicalSizeX": .25, "PhysicalSizeY": .5})
+    cases.add("flat.ome.tif", flat[None], np.diag([.25, .5, .25]), unit="µm")
     stack = values_of("uint16", (3, 8, 2, 10, 12), seed=46)  # t, z, c
     for order in "<>":
         file = f"truncated{order == '<'}.tif"
