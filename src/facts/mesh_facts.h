@@ -71,6 +71,9 @@ struct MeshFacts {
     // Rays on which methods to integrate segments are tried: rays all over the picture, as segments
     // front to back, and edges of single visible tets. Empty if nothing is integrated.
     std::vector<std::vector<Segment>> trial_rays;
+    // Pixels of the picture for each of trial_rays that goes through one. It is 1 if all pixels are
+    // tried, as of small pictures whose scene asks for a pre-integration table.
+    double pixels_a_trial_ray = 1;
     // Errors found on trial rays, in 1/255.
     struct TrialError {
         double segments = 0;  // error of the method that integrates segments
