@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "facts/surface_rays.h"
 #include "facts/volume_facts.h"
 #include "mesh/face_tree.h"
 #include "mesh/predicates.h"
@@ -241,6 +242,9 @@ void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
         });
     facts.overlap.covered_pixels =
         facts.overlap.pairs ? covered_pixels(mesh.mesh, *facts.overlap.pairs, view) : 0;
+    const bool integrated =
+        scene.method == Method::project && facts.parts > 0 && !mixes_colors(scene.project.coloring);
+    facts.surface_error = integrated ? surface_ray_error(scene, mesh, facts) : 0;
 }
 
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {

@@ -61,6 +61,7 @@ struct MeshFacts {
     bool orthographic = false;
     bool in_front = true;      // some point lies in front of the eye's plane
     bool box_in_front = true;  // all of the mesh's box does
+    double surface_error = 0;  // surface_ray_error() (facts/surface_rays.h)
 
     // A segment of a ray inside one tet.
     struct Segment {

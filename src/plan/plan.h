@@ -138,6 +138,9 @@ struct ProjectRemarks {
     std::string target_reason;          // why this target was chosen, for "target": "auto"
     MeshFacts::TrialError trial_error;  // of `source`, on some rays of the view
     ErrorFigure error;                  // of the picture
+    // The error of all rays but those along surfaces (facts/surface_rays.h), if that of these is
+    // more than max_error leaves and the picture's is unknown for this reason.
+    ErrorFigure error_of_others;
 };
 
 // The plan for Method::project.

@@ -172,7 +172,7 @@ struct ProjectPlanner {
             "float32: each ray walks from tet to tet and composites in registers; tets are neither "
             "sorted nor drawn");
         plan.blocks = choose_blocks();
-        plan.error = picture_error();
+        set_error();
         Plan made;
         made.method = Method::project;
         made.project = std::move(plan);
@@ -378,6 +378,20 @@ struct ProjectPlanner {
     double margin() const {
         if (plan.source != SegmentSource::table) return sampling_margin;
         return std::max(sampling_margin, std::pow(facts.pixels_a_trial_ray, sampling_root));
+    }
+
+    // Sets the picture's error. It includes a bound on rays along surfaces if max_error has room
+    // for it. Otherwise it is unknown, and the error of all other rays is a remark.
+    void set_error() {
+        plan.error = picture_error();
+        const double brightest = std::max(largest_drawn_color(scene, facts.max_color), 1.0);
+        const double surface = 255 * brightest * facts.surface_error;
+        if (plan.error.kind != ErrorKind::sampled || surface <= brightest * float_error) return;
+        if (plan.error.value + surface <= scene.max_error) {
+            plan.error.value += surface;
+        } else {
+            plan.error_of_others = std::exchange(plan.error, {});
+        }
     }
 
     // Returns a bound, in 1/255, on what the near plane hides of what has colours up to 1: rays
