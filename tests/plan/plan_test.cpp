@@ -95,6 +95,24 @@ TEST(Plan, TrialsOfSlabsDoNotShowTheRoundingsOfOpenGl) {
                 1e-9);
 }
 
+// Trials have exact weights if the scene asks for those of texture units: their error is not known.
+TEST(Plan, HasNoKnownErrorWithAFilterThatWasNotTried) {
+    Scene scene = read_scene(with("/render/slice/classification", "post"), "s");
+    const Volume volume = load_volume(scene);
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    const auto kind_of = [&](const SampleTrials& trials) {
+        Capabilities gpu = usual_opengl();
+        gpu.eight_bit_filter = true;
+        return make_plan(scene, facts, gpu, {}, trials).error().kind;
+    };
+    const SampleTrials exact{{{60, .8, 100, 1}}, {}};
+    EXPECT_EQ(kind_of(exact), ErrorKind::trials);
+    scene.slice.filter = Filter::hardware;
+    EXPECT_EQ(kind_of(exact), ErrorKind::unknown);
+    scene.slice.filter = automatic;
+    EXPECT_EQ(kind_of({{{60, .8, 100, 1}}, {{70, .9, 100, 1}}}), ErrorKind::trials);
+}
+
 // A hundredth of the rays' length must be empty with the cpu engine, a fifth with OpenGL.
 TEST(Plan, EmptyBricksAreLeaptOverWhereEnoughIsEmpty) {
     Scene scene = read_scene(minimal_scene(), "s");
