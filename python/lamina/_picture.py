@@ -66,8 +66,8 @@ class Picture:
     def error(self) -> float | None:
         """The largest error of the picture, in 1/255, of any pixel and channel; ``None`` if it is unknown: the scene
         states something that nothing was measured of (triangles, say), tets of the mesh overlap and are not ordered, more
-        than 8 was found, or the transfer function jumps inside the range of the data, so that a ray along such a surface
-        may be off by more than ``max_error``. ``error_kind`` says how it is known.
+        than 8 was found, or a ray runs along a surface at which the transfer function jumps, or in a face of a mesh's
+        boundary, and may be off by more than ``max_error``. ``error_kind`` says how it is known.
         """
         return self._drawn.error
 

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "facts/surface_rays.h"
 #include "facts/volume_facts.h"
 #include "mesh/face_tree.h"
 #include "mesh/predicates.h"
@@ -45,6 +46,37 @@ void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const 
 // the picture.
 constexpr int trial_rays_along_side = 32, most_rays = trial_rays_along_side * trial_rays_along_side;
 
+// Number of segments up to which more rays are tried if the scene asks for a table. Its error is
+// large on few rays, beside points of the transfer function that are not nodes of the table. So
+// many segments are tried in some .3 s of processor time.
+constexpr double most_table_segments = 1 << 18;
+
+// Numbers of trial rays along both sides of a picture.
+struct RayGrid {
+    int columns, rows;
+};
+
+RayGrid trial_grid(const View& view) {
+    const bool all = view.width * std::int64_t{view.height} <= most_rays;
+    return {all ? view.width : std::min(trial_rays_along_side, view.width),
+            all ? view.height : std::min(trial_rays_along_side, view.height)};
+}
+
+// Returns a grid of all pixels, or of as many as have most_table_segments if these `rays` of the
+// grid `tried` are typical.
+RayGrid finer_grid(const View& view, const RayGrid& tried,
+                   const std::vector<std::vector<MeshFacts::Segment>>& rays) {
+    double segments = 1;
+    for (const auto& ray : rays) segments += static_cast<double>(ray.size());
+    const double pixels = static_cast<double>(view.width) * view.height,
+                 segments_a_pixel = segments / (static_cast<double>(tried.columns) * tried.rows);
+    const double share =
+        std::sqrt(most_table_segments / (std::max(segments_a_pixel, 1.0) * pixels));
+    if (share >= 1) return {view.width, view.height};
+    return {std::max(tried.columns, static_cast<int>(share * view.width)),
+            std::max(tried.rows, static_cast<int>(share * view.height))};
+}
+
 double longest_edge(const TetMesh& mesh, std::int32_t number) {
     const Tet& tet = mesh.tets()[static_cast<std::size_t>(number)];
     const auto corner = [&](std::size_t i) {
@@ -81,6 +113,27 @@ std::vector<MeshFacts::Segment> segments_of(RayWalk& walk, const View& view, int
         if (std::isfinite(trial.front) && std::isfinite(trial.back)) found.push_back(trial);
     }
     return found;
+}
+
+// Returns the rays of find_view_rays() on a grid.
+std::vector<std::vector<MeshFacts::Segment>> rays_of_grid(const View& view, const SceneMesh& mesh,
+                                                          const RayGrid& grid) {
+    const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
+    std::vector<std::vector<MeshFacts::Segment>> rays(static_cast<std::size_t>(grid.columns) *
+                                                      static_cast<std::size_t>(grid.rows));
+    const auto pixel = [](std::int64_t i, int count, int pixels) {
+        return static_cast<int>((2 * i + 1) * pixels / (2 * count));
+    };
+    parallel_for(grid.rows, 1, [&](std::int64_t row) {
+        RayWalk walk(mesh.mesh, boundary);
+        for (int column = 0; column < grid.columns; ++column) {
+            rays[static_cast<std::size_t>(row * grid.columns + column)] =
+                segments_of(walk, view, pixel(column, grid.columns, view.width),
+                            pixel(row, grid.rows, view.height), mesh.mesh, mesh.scalar.values);
+        }
+    });
+    std::erase_if(rays, [](const auto& ray) { return ray.empty(); });
+    return rays;
 }
 
 // Largest number of visible tets tried, evenly chosen, because rays may miss narrow peaks.
@@ -189,6 +242,9 @@ void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
         });
     facts.overlap.covered_pixels =
         facts.overlap.pairs ? covered_pixels(mesh.mesh, *facts.overlap.pairs, view) : 0;
+    const bool integrated =
+        scene.method == Method::project && facts.parts > 0 && !mixes_colors(scene.project.coloring);
+    facts.surface_error = integrated ? surface_ray_error(scene, mesh, facts) : 0;
 }
 
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
@@ -198,7 +254,15 @@ void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
     if (!integrated) return;
     const TetPieces pieces(*scene.transfer_function,
                            drawn_range(*scene.transfer_function, facts.range));
-    facts.trial_rays = find_view_rays(scene, mesh);
+    const View view(*scene.camera, scene.width, scene.height);
+    RayGrid grid = trial_grid(view);
+    facts.trial_rays = rays_of_grid(view, mesh, grid);
+    if (scene.project.table.is_given()) {
+        grid = finer_grid(view, grid, facts.trial_rays);
+        facts.trial_rays = rays_of_grid(view, mesh, grid);
+    }
+    facts.pixels_a_trial_ray = static_cast<double>(view.width) * view.height /
+                               (static_cast<double>(grid.columns) * grid.rows);
     append_tets(mesh, pieces, facts.trial_rays);
 }
 
@@ -220,22 +284,7 @@ void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& 
 std::vector<std::vector<MeshFacts::Segment>> find_view_rays(const Scene& scene,
                                                             const SceneMesh& mesh) {
     const View view(*scene.camera, scene.width, scene.height);
-    const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
-    const bool all = view.width * std::int64_t{view.height} <= most_rays;
-    const int columns = all ? view.width : std::min(trial_rays_along_side, view.width);
-    const int rows = all ? view.height : std::min(trial_rays_along_side, view.height);
-    std::vector<std::vector<MeshFacts::Segment>> rays(static_cast<std::size_t>(columns * rows));
-    parallel_for(rows, 1, [&](std::int64_t row) {
-        RayWalk walk(mesh.mesh, boundary);
-        for (int column = 0; column < columns; ++column) {
-            rays[static_cast<std::size_t>(row * columns + column)] =
-                segments_of(walk, view, (2 * column + 1) * view.width / (2 * columns),
-                            static_cast<int>((2 * row + 1) * view.height / (2 * rows)), mesh.mesh,
-                            mesh.scalar.values);
-        }
-    });
-    std::erase_if(rays, [](const auto& ray) { return ray.empty(); });
-    return rays;
+    return rays_of_grid(view, mesh, trial_grid(view));
 }
 
 }  // namespace lamina

@@ -61,6 +61,7 @@ struct MeshFacts {
     bool orthographic = false;
     bool in_front = true;      // some point lies in front of the eye's plane
     bool box_in_front = true;  // all of the mesh's box does
+    double surface_error = 0;  // surface_ray_error() (facts/surface_rays.h)
 
     // A segment of a ray inside one tet.
     struct Segment {
@@ -71,6 +72,9 @@ struct MeshFacts {
     // Rays on which methods to integrate segments are tried: rays all over the picture, as segments
     // front to back, and edges of single visible tets. Empty if nothing is integrated.
     std::vector<std::vector<Segment>> trial_rays;
+    // Pixels of the picture for each of trial_rays that goes through one. It is 1 if all pixels are
+    // tried, as of small pictures whose scene asks for a pre-integration table.
+    double pixels_a_trial_ray = 1;
     // Errors found on trial rays, in 1/255.
     struct TrialError {
         double segments = 0;  // error of the method that integrates segments

@@ -27,6 +27,13 @@ std::string line(const char* what, const std::string& value) {
 
 // Returns the error of a plan as text. If it is unknown only for rays along surfaces, it tells so.
 std::string error_text(const Plan& plan) {
+    const ErrorFigure& of_others = plan.project.error_of_others;
+    if (plan.method == Method::project && of_others.kind != ErrorKind::unknown) {
+        return fmt::format(
+            "unknown of rays that run along the mesh's boundary, or along a surface at which the "
+            "transfer function jumps or is very steep; of all others {}",
+            text_of(of_others));
+    }
     if (plan.method != Method::slice || !std::isinf(plan.slice.surface_error))
         return text_of(plan.error());
     SlicePlan others = plan.slice;
@@ -241,7 +248,7 @@ std::string explain(const Plan& plan, const MeshFacts& facts, const Capabilities
         row("context", capabilities.renderer);
         explain_projection(plan.project, facts, capabilities.cpu, row);
     }
-    if (plan.method != Method::trace) row("error", text_of(plan.error()));
+    if (plan.method != Method::trace) row("error", error_text(plan));
     return text + work_and_left_out(plan);
 }
 

@@ -218,7 +218,12 @@ void add_savings(Plan& plan, const Scene& scene, const MeshFacts& facts) {
 ErrorFigure SlicePlan::error() const {
     const bool bounded = nothing_visible || integrates_cells();
     if ((!bounded && !slab_trial) || !rounding_bound) return {};
-    const double value = found_error() + *rounding_bound + surface_error;
+    // Trials use the texture unit's filter only if they may choose it, not if the scene asks for
+    // it.
+    const bool tried_filter = sampling != VolumeSampling::hardware || !filter_reason.empty();
+    if (!bounded && !tried_filter) return {};
+    const double value =
+        found_error() + *rounding_bound + (bounded ? surface_error : context_error);
     // An error of full scale says nothing.
     if (value >= 255) return {};
     if (bounded) {

@@ -138,6 +138,9 @@ struct ProjectRemarks {
     std::string target_reason;          // why this target was chosen, for "target": "auto"
     MeshFacts::TrialError trial_error;  // of `source`, on some rays of the view
     ErrorFigure error;                  // of the picture
+    // The error of all rays but those along surfaces (facts/surface_rays.h), if that of these is
+    // more than max_error leaves and the picture's is unknown for this reason.
+    ErrorFigure error_of_others;
 };
 
 // The plan for Method::project.
@@ -223,6 +226,9 @@ struct SliceRemarks {
     std::optional<SlabTrial> slab_trial;  // trial of the chosen number, for "samples": "auto"
     std::string filter_reason;  // for "filter": "auto", if the texture unit's filter is chosen
     double filter_error = 0;    // measured, for "filter": "auto" with a given number of slabs
+    // Bound on what the context's arithmetic may change of the trial picture, which the cpu engine
+    // draws; 0 on the cpu engine.
+    double context_error = 0;
     std::string classification_reason;  // for "classification": "auto"
     std::string target_reason;          // for "target": "auto"
     std::optional<double> error_bound;  // of compositing, for "tree": "auto"
@@ -252,8 +258,9 @@ struct SlicePlan : SlicedPicture, ViewPlan, SliceRemarks {
         if (integrates_cells()) return segment_error + light_error + curve_error;
         return slab_trial ? slab_trial->error : filter_error + table.error;
     }
-    // Returns the picture's error: found_error() plus rounding_bound and surface_error. It is
-    // unknown if the scene gives the number of slabs, because then nothing is measured.
+    // Returns the picture's error: found_error() plus rounding_bound and surface_error, or, if it
+    // was found by trials, context_error. It is unknown if the scene gives the number of slabs,
+    // because then nothing is measured.
     ErrorFigure error() const;
 
     friend bool operator==(const SlicePlan&, const SlicePlan&) = default;

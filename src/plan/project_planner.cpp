@@ -44,8 +44,10 @@ constexpr double most_figure = 8;
 // Largest error, in 1/255, that a pre-integration table may add to the picture.
 constexpr double most_segment_error = 0.5;
 
-// Factor by which other rays of the picture may be worse than the trial rays.
-constexpr double sampling_margin = 1.25;
+// Factor by which other rays of the picture may be worse than the trial rays. If the scene asks for
+// a table and not all pixels are tried, it is at least this root of the pixels for each trial ray,
+// as for trials of slabs (slab_error_goal() in plan/choices.h).
+constexpr double sampling_margin = 1.25, sampling_root = 0.25;
 
 // Tets are cut into cell fragments at the transfer function's points only if a visible tet has at
 // most this many on average. With more, a table whose nodes lie on these points is faster.
@@ -170,7 +172,7 @@ struct ProjectPlanner {
             "float32: each ray walks from tet to tet and composites in registers; tets are neither "
             "sorted nor drawn");
         plan.blocks = choose_blocks();
-        plan.error = picture_error();
+        set_error();
         Plan made;
         made.method = Method::project;
         made.project = std::move(plan);
@@ -368,9 +370,28 @@ struct ProjectPlanner {
         // A picture is linear in its colours.
         const double brightest = std::max(largest_drawn_color(scene, facts.max_color), 1.0);
         const double value = brightest * (float_error + hidden_by_near_plane()) +
-                             sampling_margin * found.segments + found.places + plan.light_error;
+                             margin() * found.segments + found.places + plan.light_error;
         if (value > most_figure) return {};
         return {ErrorKind::sampled, value, found.rays};
+    }
+
+    double margin() const {
+        if (plan.source != SegmentSource::table) return sampling_margin;
+        return std::max(sampling_margin, std::pow(facts.pixels_a_trial_ray, sampling_root));
+    }
+
+    // Sets the picture's error. It includes a bound on rays along surfaces if max_error has room
+    // for it. Otherwise it is unknown, and the error of all other rays is a remark.
+    void set_error() {
+        plan.error = picture_error();
+        const double brightest = std::max(largest_drawn_color(scene, facts.max_color), 1.0);
+        const double surface = 255 * brightest * facts.surface_error;
+        if (plan.error.kind != ErrorKind::sampled || surface <= brightest * float_error) return;
+        if (plan.error.value + surface <= scene.max_error) {
+            plan.error.value += surface;
+        } else {
+            plan.error_of_others = std::exchange(plan.error, {});
+        }
     }
 
     // Returns a bound, in 1/255, on what the near plane hides of what has colours up to 1: rays

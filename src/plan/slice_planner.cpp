@@ -45,6 +45,12 @@ constexpr double curve_share = 0.25;  // share of max_error that curves may cost
 
 constexpr std::uint64_t gradient_bytes = 8;  // bytes a sample (slicing/gradient_map.h)
 
+// What OpenGL's float32 arithmetic may change of a ray, as shares of full scale: chords of the box
+// (docs/precision.md, "Opacity in float32"), and in each slab four roundings of 2^-24: of its
+// place, its scalar, its opacity and its colour. Those of compositing are counted by
+// rounding_bound.
+constexpr double chord_rounding = 1e-5, slab_rounding = 0x1p-22;
+
 // Width, in roundings, up to which a ramp of the transfer function counts as a jump: on wider ones
 // a rounding moves a scalar by less than a thousandth of the ramp.
 constexpr double steep_width = 1024;
@@ -153,6 +159,9 @@ struct SlicePlanner {
             plan_light(scene, facts.max_color, classification == Classification::exact);
 
         const bool hardware_filter = choose_slabs(slice);
+        if (slice.slab_trial && !capabilities.cpu)
+            slice.context_error =
+                255 * std::max(max_color, 1.0) * (chord_rounding + slab_rounding * slice.slabs);
         slice.precise_rays = choose_precision();
         slice.sampling = choose_sampling(hardware_filter);
         slice.float_texture =

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cpu_alone.h"
 #include "plan/planners.h"
 #include "support/expect_error.h"
 #include "support/scene_fixture.h"
@@ -76,6 +77,40 @@ TEST(Plan, TheHardwareFilterSavesFetchesIfItKeepsTheError) {
     EXPECT_EQ(plan_for().slice.sampling, VolumeSampling::hardware);
     EXPECT_EQ(plan_for().slice.slabs, 60);
     EXPECT_EQ(plan_for().slice.filter_error, .5);
+}
+
+// The cpu engine draws trial pictures, so OpenGL's arithmetic is no part of their error.
+TEST(Plan, TrialsOfSlabsDoNotShowTheRoundingsOfOpenGl) {
+    Scene scene = read_scene(with("/render/slice/classification", "post"), "s");
+    const Volume volume = load_volume(scene);
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    const SampleTrials trials{{{64, .8, 100, 1}}, {}};
+    const auto error_with = [&](const Capabilities& capabilities) {
+        const ErrorFigure error = make_plan(scene, facts, capabilities, {}, trials).error();
+        EXPECT_EQ(error.kind, ErrorKind::trials);
+        return error.value;
+    };
+    // Chords are good to 1e-5, and each slab has four roundings of 2^-24.
+    EXPECT_NEAR(error_with(usual_opengl()) - error_with(cpu_alone()), 255 * (1e-5 + 64 * 0x1p-22),
+                1e-9);
+}
+
+// Trials have exact weights if the scene asks for those of texture units: their error is not known.
+TEST(Plan, HasNoKnownErrorWithAFilterThatWasNotTried) {
+    Scene scene = read_scene(with("/render/slice/classification", "post"), "s");
+    const Volume volume = load_volume(scene);
+    const Facts facts = measure(scene, volume, measure_bricks(volume));
+    const auto kind_of = [&](const SampleTrials& trials) {
+        Capabilities gpu = usual_opengl();
+        gpu.eight_bit_filter = true;
+        return make_plan(scene, facts, gpu, {}, trials).error().kind;
+    };
+    const SampleTrials exact{{{60, .8, 100, 1}}, {}};
+    EXPECT_EQ(kind_of(exact), ErrorKind::trials);
+    scene.slice.filter = Filter::hardware;
+    EXPECT_EQ(kind_of(exact), ErrorKind::unknown);
+    scene.slice.filter = automatic;
+    EXPECT_EQ(kind_of({{{60, .8, 100, 1}}, {{70, .9, 100, 1}}}), ErrorKind::trials);
 }
 
 // A hundredth of the rays' length must be empty with the cpu engine, a fifth with OpenGL.

@@ -194,5 +194,48 @@ TEST(ProjectPlan, TreesNeedFixedNodesAndOneColor) {
             {"s.json: render.project.table.store: found \"opacity\"", "\"mean_extinction\""});
 }
 
+TransferFunction two_steps() {
+    return TransferFunction::linear({knot(.4, {1, 1, 1}, 0), knot(.4, {1, 1, 1}, 2),
+                                     knot(1.3, {1, 1, 1}, 2), knot(1.3, {1, 1, 1}, 0)});
+}
+
+// The error of a table that a scene asks for is large on few rays: all of a small picture are
+// tried, and more than usual of a large one, whose figure has a larger margin.
+TEST(ProjectPlan, TriesMoreRaysIfTheSceneAsksForATable) {
+    const SceneMesh mesh = scene_mesh(test::split_box(
+        7, 40, .1, [](const glm::dvec3& p) { return p.x + .4 * p.y * p.z + .3 * p.z; }));
+    Scene scene = projection_scene(two_steps(), 120, 90);
+    scene.camera->eye = {1.3, 1.7, 2.1};
+    scene.camera->center = {.5, .5, .5};
+    scene.camera->up = {0, 1, 0};
+    const MeshFacts usual = measure(scene, mesh);
+    scene.project.table = TableSettings{.scalar = 32, .length = 4};
+    const MeshFacts small = measure(scene, mesh);
+    EXPECT_EQ(small.pixels_a_trial_ray, 1);
+    EXPECT_GT(small.trial_rays.size(), 5 * usual.trial_rays.size());
+    EXPECT_GT(usual.pixels_a_trial_ray, 10);
+    const Plan plan = make_plan(scene, small, cpu_capabilities(), {});
+    const double error =
+        image_error(project(mesh, scene, cpu_capabilities()), trace(mesh, scene)).all.linf;
+    EXPECT_GT(error, .5);
+    EXPECT_LE(error, plan.project.trial_error.segments + plan.project.trial_error.places + .05);
+
+    scene.width = 4000;
+    scene.height = 3000;
+    MeshFacts large = measure(scene, mesh);
+    EXPECT_GT(large.pixels_a_trial_ray, 40);
+    // At most 2^18 rays go through pixels.
+    EXPECT_LT(large.trial_rays.size(), (1 << 18) + 2 * mesh.mesh.tets().size());
+    scene.project.table->scalar = 256;  // whose figure may be stated
+    large.pixels_a_trial_ray = 16;
+    const ProjectPlan sampled = make_plan(scene, large, cpu_capabilities(), {}).project;
+    large.pixels_a_trial_ray = 1;
+    const ProjectPlan all = make_plan(scene, large, cpu_capabilities(), {}).project;
+    ASSERT_EQ(all.error.kind, ErrorKind::sampled);
+    ASSERT_EQ(sampled.error.kind, ErrorKind::sampled);
+    // The fourth root of 16 in place of the usual margin, 1.25.
+    EXPECT_NEAR(sampled.error.value - all.error.value, .75 * all.trial_error.segments, 1e-9);
+}
+
 }  // namespace
 }  // namespace lamina

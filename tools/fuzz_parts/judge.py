@@ -181,6 +181,9 @@ class Judge:
         figure = drawn.stats["error"]
         if figure["kind"] == "derived":
             self.check("bound", error, figure["value"] / 255 + 1e-7, f" by {plan['classification']} in {plan['target']}")
+        elif figure["kind"] == "trials":
+            self.check("figure", error, figure["value"] / 255 + 1e-7,
+                       f" by {plan['slabs']} slabs, {plan['classification']}, trials on {figure['rays']} rays")
         rounding = self.rounding_bound(plan)
         if claims and rounding is not None and settings.get("filter") != "hardware":
             self.check("auto", error, self.max_error / 255 + rounding + 1e-7, f" by {plan['slabs']} slabs")
