@@ -9,6 +9,10 @@
 
 namespace lamina {
 
+// The numbers of the corners at the ends of a tet's six edges.
+inline constexpr std::array<std::array<std::size_t, 2>, 6> tet_edges{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
 // Faults that were found, and partly repaired, while a mesh was assembled.
 struct MeshFindings {
     std::int64_t tets_read = 0;
