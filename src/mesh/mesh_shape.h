@@ -29,9 +29,4 @@ inline bool convex(const TetMesh& mesh) {
     return convexity(mesh) != Convexity::none;
 }
 
-// Counts the tets at whose open faces the mesh overlaps itself: tets of faces that cross, are
-// folded or nonmanifold, and one of each connected component inside another (tests up to 500
-// components). Finds all crossing faces unless the search would take too long. Parallel.
-std::int64_t count_overlapping_tets(const TetMesh& mesh);
-
 }  // namespace lamina

@@ -19,7 +19,7 @@ namespace lamina {
 // by their numbers.
 class OverlapConstraints {
   public:
-    // `pairs`: all overlapping_pairs() of the mesh, which must outlive this object.
+    // `pairs`: all TetOverlaps::pairs of the mesh, which must outlive this object.
     OverlapConstraints(const TetMesh& mesh, std::span<const TetPair> pairs);
 
     // Returns the open faces of the mesh and, after them, faces of overlapping tets: constraints

@@ -41,7 +41,7 @@ struct OrderReport {
 // The order depends on mesh, method and eye alone. The mesh must outlive this object.
 class VisibilityOrder {
   public:
-    // `overlaps`: the mesh's overlapping_pairs(), which `exact` then orders by entry (EntryRule) in
+    // `overlaps`: the mesh's TetOverlaps::pairs, which `exact` then orders by entry (EntryRule) in
     // all pixels.
     VisibilityOrder(const TetMesh& mesh, OrderMethod method,
                     std::span<const TetPair> overlaps = {});

@@ -109,9 +109,9 @@ Camera camera_from(const glm::dvec3& eye, Projection projection) {
 TEST(OverlapOrder, DrawsEachRaysTetsByEntry) {
     for (const test::OverlapCase& each : test::overlap_cases()) {
         const TetMesh mesh(each.mesh, "mesh");
-        const auto pairs = overlapping_pairs(mesh, 10'000);
-        ASSERT_TRUE(pairs && !pairs->empty()) << each.name;
-        VisibilityOrder order(mesh, OrderMethod::exact, *pairs);
+        const std::vector<TetPair> pairs = find_overlaps(mesh, 10'000).pairs;
+        ASSERT_FALSE(pairs.empty()) << each.name;
+        VisibilityOrder order(mesh, OrderMethod::exact, pairs);
         for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
             // The last two eyes are inside of some meshes, and in a plane of others' faces.
             for (const glm::dvec3& eye :
@@ -143,7 +143,7 @@ TEST(OverlapOrder, IsWrongWithoutThePairs) {
 // were ordered alone, there would be four times as many.
 TEST(OverlapOrder, HalvesTheRectanglesOfFewTets) {
     const TetMesh mesh(test::overlap_cases().front().mesh, "two");
-    VisibilityOrder order(mesh, OrderMethod::exact, overlapping_pairs(mesh, 1).value());
+    VisibilityOrder order(mesh, OrderMethod::exact, find_overlaps(mesh, 1).pairs);
     const Camera camera = camera_from({.3, .4, 2.4}, Projection::perspective);
     const std::size_t small = order.sort_pixels(View(camera, 400, 300)).limited.size();
     EXPECT_GT(small, 0);
@@ -159,7 +159,7 @@ TEST(OverlapOrder, SplitsThePictureOfManySmallTets) {
                                                   .5 + .33 * std::sin(.37 * i * i), .5 + 1e-4 * i},
                                                  .04));
     const TetMesh mesh(data, "many");
-    VisibilityOrder order(mesh, OrderMethod::exact, overlapping_pairs(mesh, 50'000).value());
+    VisibilityOrder order(mesh, OrderMethod::exact, find_overlaps(mesh, 50'000).pairs);
     const View view(camera_from({.3, .4, 2.4}, Projection::perspective), 57, 49);
     EXPECT_EQ(judge_by_entry(mesh, view, order.sort_pixels(view)).wrong, 0);
 }
