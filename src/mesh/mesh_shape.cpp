@@ -2,6 +2,7 @@
 #include "mesh/mesh_shape.h"
 
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "base/parallel.h"
@@ -96,6 +97,77 @@ class FaceSets {
     std::size_t count_;
 };
 
+// Tells whether a closed surface without concave edges, which may cross itself, winds once around
+// its inside: pyramids on both sides of a pentagram wind twice (docs/numerics.md, Convex meshes).
+class Winding {
+  public:
+    // `edges`: sorted; each stands there twice.
+    Winding(const TetMesh& mesh, std::span<const BoundaryEdge> edges)
+        : mesh_(mesh), edges_(edges) {}
+
+    bool is_single() {
+        const std::optional<std::int32_t> top = only_top();
+        return top && turns_once(*top);
+    }
+
+  private:
+    const glm::dvec3& point(std::int32_t place) const { return mesh_.points()[place]; }
+
+    // Returns the surface's only point that is higher than its neighbours, if it has one and is a
+    // sphere, by Euler's formula. "Higher" is along the cross product of two vectors.
+    std::optional<std::int32_t> only_top() const {
+        constexpr std::uint8_t elsewhere = 0, highest = 1, lower = 2;
+        std::vector<std::uint8_t> state(mesh_.points().size(), elsewhere);
+        const auto see = [&](std::int32_t place, bool is_lower) {
+            state[place] = is_lower ? lower : std::max(state[place], highest);
+        };
+        for (std::size_t i = 0; i < edges_.size(); i += 2) {
+            const auto& [low, high, face, apex] = edges_[i];
+            const int sign = sign_of_determinant(point(low), point(high), across, glm::dvec3(0),
+                                                 other_across, glm::dvec3(0));
+            if (sign == 0) return {};
+            see(low, sign < 0);
+            see(high, sign > 0);
+        }
+        const auto points = std::ranges::count_if(state, [](auto s) { return s != elsewhere; });
+        if (2 * points != std::ssize(mesh_.open_faces()) + 4) return {};
+        const auto top = std::ranges::find(state, highest);
+        if (top == state.end() || std::find(top + 1, state.end(), highest) != state.end())
+            return {};
+        return static_cast<std::int32_t>(top - state.begin());
+    }
+
+    // Tells whether the points around the top turn once around it: then they come nearer to a
+    // plane that turns about an axis through the top, and then go away from it, once each.
+    bool turns_once(std::int32_t top) const {
+        std::vector<std::pair<std::int32_t, bool>>
+            ways;  // each point twice: do the two edges rise?
+        for (std::int32_t face = 0; face < std::ssize(mesh_.open_faces()); ++face) {
+            const auto corners = open_face(mesh_, face);
+            const auto at = std::ranges::find(corners, top) - corners.begin();
+            if (at == 3) continue;
+            const std::int32_t from = corners[(at + 1) % 3], to = corners[(at + 2) % 3];
+            const int sign = sign_of_determinant(point(from), point(top), point(to), point(top),
+                                                 across, glm::dvec3(0));
+            if (sign == 0) return false;
+            ways.emplace_back(from, sign > 0);
+            ways.emplace_back(to, sign > 0);
+        }
+        std::ranges::sort(ways);
+        int turns = 0;  // points at which a rise ends or begins
+        for (std::size_t i = 0; i + 1 < ways.size(); i += 2)
+            turns += ways[i].second != ways[i + 1].second;
+        return turns == 2;
+    }
+
+    // Vectors that are at right angles to no edge of a mesh, but by a chance of 1e-15.
+    static constexpr glm::dvec3 across{1, .7548776662466927, .1180339887498949},
+        other_across{.2360679774997897, 1, .5698402909980532};
+
+    const TetMesh& mesh_;
+    std::span<const BoundaryEdge> edges_;
+};
+
 }  // namespace
 
 EdgeLengths edge_lengths(const TetMesh& mesh) {
@@ -140,7 +212,7 @@ Convexity convexity(const TetMesh& mesh) {
         result = std::min(result, here);
         surfaces.join(edges[i].face, edges[i + 1].face);
     }
-    return surfaces.count() == 1 ? result : Convexity::none;
+    return surfaces.count() == 1 && Winding(mesh, edges).is_single() ? result : Convexity::none;
 }
 
 }  // namespace lamina
