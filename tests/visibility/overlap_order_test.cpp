@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
+#include <random>
 #include <vector>
 
+#include "support/carved_mesh.h"
 #include "support/overlapping_tets.h"
 #include "visibility/visibility_order.h"
 
@@ -127,6 +130,166 @@ TEST(OverlapOrder, DrawsEachRaysTetsByEntry) {
             }
         }
     }
+}
+
+// The following draw meshes and cameras at random, and hold the order of each pixel against a list
+// of all tets on its ray.
+
+struct Draw {
+    std::mt19937 random;
+    double uniform(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    }
+    int integer(int low, int high) {  // both included
+        return std::uniform_int_distribution<int>(low, high)(random);
+    }
+    glm::dvec3 point() { return {uniform(0, 1), uniform(0, 1), uniform(0, 1)}; }
+    // Returns a point of a lattice, so that faces lie in one plane and edges on one line.
+    glm::dvec3 lattice_point() {
+        return glm::dvec3(integer(0, 4), integer(0, 4), integer(0, 4)) / 4.;
+    }
+};
+
+// Appends a mesh of tets that are random, on a lattice, parts of a box that share faces, or tets
+// that share points with earlier ones.
+void append_tets(MeshData& mesh, Draw& draw) {
+    const int kind = draw.integer(0, 3), count = draw.integer(1, 6);
+    if (kind == 2) {
+        const MeshData box = test::kuhn_box({2, 2, 2}, [](const glm::dvec3&) { return 0.; });
+        const bool shifted = draw.integer(0, 1) == 1;
+        const glm::dvec3 by = shifted ? .5 * draw.point() : .5 * draw.lattice_point();
+        std::vector<glm::dvec3> points;
+        for (const glm::dvec3& point : box.points) points.push_back(.4 * point + by);
+        std::vector<Tet> tets;
+        for (const Tet& tet : box.tets)
+            if (draw.integer(0, 3) == 0) tets.push_back(tet);
+        return test::append(mesh, points, tets);
+    }
+    for (int i = 0; i < count; ++i) {
+        const auto corner = [&] { return kind == 1 ? draw.lattice_point() : draw.point(); };
+        std::array<glm::dvec3, 4> corners{corner(), corner(), corner(), corner()};
+        if (kind == 3 && !mesh.points.empty()) {
+            const int shared = draw.integer(1, 3);
+            for (int j = 0; j < shared; ++j)
+                corners[static_cast<std::size_t>(j)] = mesh.points[static_cast<std::size_t>(
+                    draw.integer(0, static_cast<int>(mesh.points.size()) - 1))];
+        }
+        test::append_tet(mesh, corners);
+    }
+}
+
+bool all_repeat_a_corner(const MeshData& mesh) {
+    return std::ranges::all_of(mesh.tets, [&](const Tet& tet) {
+        const auto point = [&](std::size_t i) {
+            return mesh.points[static_cast<std::size_t>(tet[i])];
+        };
+        return std::ranges::any_of(
+            tet_edges, [&](const auto& edge) { return point(edge[0]) == point(edge[1]); });
+    });
+}
+
+View random_view(Draw& draw) {
+    Camera camera;
+    camera.eye = draw.integer(0, 2) == 0   ? draw.point()
+                 : draw.integer(0, 1) == 0 ? 3. * draw.lattice_point() - 1.
+                                           : 5. * draw.point() - 2.;
+    do camera.center = draw.integer(0, 1) == 0 ? draw.point() : draw.lattice_point();
+    while (glm::distance(camera.center, camera.eye) < .1);
+    const glm::dvec3 forward = camera.center - camera.eye;
+    camera.up = std::abs(forward.y) < .5 * glm::length(forward)   ? glm::dvec3(0, 1, 0)
+                : std::abs(forward.x) < .5 * glm::length(forward) ? glm::dvec3(1, 0, 0)
+                                                                  : glm::dvec3(0, 0, 1);
+    camera.projection =
+        draw.integer(0, 1) == 0 ? Projection::perspective : Projection::orthographic;
+    camera.height = draw.uniform(.3, 2);
+    camera.fov_y = draw.uniform(10, 100);
+    return {camera, draw.integer(1, 40), draw.integer(1, 30)};
+}
+
+// Lists the tets of a ray by entry, or nothing if rounding may change the list: an entry is as
+// uncertain as its face is steep to the ray. Short segments do not count; they are not listed.
+std::optional<std::vector<std::int32_t>> surely_by_entry(const TetMesh& mesh, const View& view,
+                                                         const View::Ray& ray) {
+    struct Entry {
+        double at, error;
+        std::int32_t tet;
+    };
+    constexpr double shortest = 1e-4;   // far above the near plane of the order, 1e-6
+    constexpr double rounding = 1e-14;  // of a coordinate, some ten products and sums of up to 5
+    const EntryRule rule = entry_rule(mesh, eye_of(view), ray.direction);
+    std::vector<Entry> entries;
+    for (std::int32_t tet = 0; tet < std::ssize(mesh.tets()); ++tet) {
+        const MetTet met = meet(mesh, tet, ray);
+        const double in =
+            std::max(met.in, view.projection == Projection::perspective ? 0. : met.in);
+        if (std::ranges::count(mesh.flat_tets(), tet) > 0 || !(met.out - in > shortest)) continue;
+        double steepest = 1;  // the least sine of a face and the ray
+        for (std::int32_t face = 0; face < 4; ++face) {
+            const auto [a, b, c] = mesh.corners({tet, face});
+            const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+            steepest =
+                std::min(steepest, std::abs(glm::dot(normal, glm::normalize(ray.direction))));
+        }
+        entries.push_back({in, rounding / steepest, tet});
+    }
+    std::ranges::sort(entries, {}, &Entry::at);
+    for (std::size_t i = 1; i < entries.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const double apart = entries[i].at - entries[j].at,
+                         error = entries[i].error + entries[j].error;
+            if (apart > .5 * rule.tie - error && apart < 2 * rule.tie + error) return {};
+        }
+    }
+    std::vector<std::int32_t> tets;
+    for (std::size_t first = 0, end = 0; first < entries.size(); first = end) {
+        while (end < entries.size() && entries[end].at - entries[first].at <= rule.tie) ++end;
+        const std::size_t begin = tets.size();
+        for (std::size_t i = first; i < end; ++i) tets.push_back(entries[i].tet);
+        std::sort(tets.begin() + static_cast<std::ptrdiff_t>(begin), tets.end());
+    }
+    return tets;
+}
+
+TEST(OverlapOrder, DrawsRandomTetsByEntry) {
+    std::int64_t pixels = 0, covered = 0, doubtful = 0, ordered_rings = 0;
+    for (std::uint32_t seed = 1; seed <= 600; ++seed) {
+        Draw draw{std::mt19937(seed)};
+        MeshData data;
+        for (int parts = draw.integer(1, 3); parts > 0; --parts) append_tets(data, draw);
+        if (data.tets.empty() || all_repeat_a_corner(data)) continue;
+        const TetMesh mesh(data, "random");
+        const TetOverlaps overlaps = find_overlaps(mesh, 100'000);
+        ASSERT_TRUE(overlaps.complete);
+        VisibilityOrder order(mesh, OrderMethod::exact, overlaps.pairs);
+        for (int views = 0; views < 3; ++views) {
+            const View view = random_view(draw);
+            const DrawOrder<std::int32_t> found = order.sort_pixels(view);
+            EXPECT_EQ(order.report().broken, 0);
+            ordered_rings += !found.limited.empty();
+            auto drawn = drawn_by_pixel(view, found);
+            const glm::dvec3 moved = ray_perturbation(view);
+            for (int row = 0; row < view.height; ++row) {
+                for (int column = 0; column < view.width; ++column) {
+                    const View::Ray ray = view.ray(column + moved.x, row - moved.y);
+                    const auto expected = surely_by_entry(mesh, view, ray);
+                    ++pixels;
+                    doubtful += !expected;
+                    if (!expected) continue;
+                    covered += !expected->empty();
+                    auto& here = drawn[static_cast<std::size_t>(row * view.width + column)];
+                    std::erase_if(here, [&](std::int32_t tet) {
+                        return std::ranges::find(*expected, tet) == expected->end();
+                    });
+                    ASSERT_EQ(here, *expected) << "seed " << seed << ", view " << views
+                                               << ", pixel " << column << ", " << row;
+                }
+            }
+        }
+    }
+    // The test would say nothing if it left out all rays, or saw no rings.
+    EXPECT_GT(covered, pixels / 5);
+    EXPECT_LT(doubtful, pixels / 50);
+    EXPECT_GT(ordered_rings, 100);
 }
 
 // Without the pairs, the orders of the same meshes are wrong, so judge_by_entry() can find errors.
