@@ -93,9 +93,7 @@ DrawOrder<CellFragment> VisibleCellFragments::sorted(VisibilityOrder& order, con
     Stage sorting("sort");
     const Eye eye = eye_of(view);
     const auto look = [&] { look_from(eye); };
-    const DrawOrder<std::int32_t> tets = solve_rings
-                                             ? order.sort_pixels(view, look)
-                                             : DrawOrder<std::int32_t>{order.sort(eye, look), {}};
+    const DrawOrder<std::int32_t> tets = order.sort_pixels(view, look, solve_rings);
     sorting.end();
     const Stage listing("parts");
     list_tets(tets.items);
