@@ -46,14 +46,11 @@ void measure_transfer_function(const Scene& scene, const SceneMesh& mesh, const 
 // the picture.
 constexpr int trial_rays_along_side = 32, most_rays = trial_rays_along_side * trial_rays_along_side;
 
-double longest_edge(const TetMesh& mesh, std::int32_t number) {
-    const Tet& tet = mesh.tets()[static_cast<std::size_t>(number)];
-    const auto corner = [&](std::size_t i) {
-        return mesh.points()[static_cast<std::size_t>(tet[i])];
-    };
+double longest_edge(const TetMesh& mesh, std::int32_t tet) {
+    const auto corners = mesh.corners(tet);
     double longest = 0;
     for (const auto& [i, j] : tet_edges)
-        longest = std::max(longest, glm::distance(corner(i), corner(j)));
+        longest = std::max(longest, glm::distance(corners[i], corners[j]));
     return longest;
 }
 
@@ -111,8 +108,8 @@ void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
 double pixels_around(const TetMesh& mesh, std::int32_t tet, const WindowView& window) {
     const glm::dvec2 size(window.view().width, window.view().height);
     glm::dvec2 low = size, high(0);
-    for (const std::int32_t corner : mesh.tets()[static_cast<std::size_t>(tet)]) {
-        const glm::dvec3 seen = window.see(mesh.points()[static_cast<std::size_t>(corner)]);
+    for (const glm::dvec3& corner : mesh.corners(tet)) {
+        const glm::dvec3 seen = window.see(corner);
         if (window.perspective() && !(seen.z > 0)) return size.x * size.y;
         const glm::dvec2 place = window.to_window(seen);
         low = glm::min(low, place);

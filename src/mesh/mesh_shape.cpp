@@ -178,10 +178,9 @@ EdgeLengths edge_lengths(const TetMesh& mesh) {
         EdgeLengths& mine = found[task];
         const std::int64_t end = std::min(tets, (task + 1) * tets_per_task);
         for (std::int64_t tet = task * tets_per_task; tet < end; ++tet) {
-            const Tet& corners = mesh.tets()[tet];
+            const auto corners = mesh.corners(static_cast<std::int32_t>(tet));
             for (const auto& [i, j] : tet_edges) {
-                const double length =
-                    glm::length(mesh.points()[corners[j]] - mesh.points()[corners[i]]);
+                const double length = glm::length(corners[j] - corners[i]);
                 mine.shortest = std::min(mine.shortest, length);
                 mine.longest = std::max(mine.longest, length);
             }

@@ -63,6 +63,13 @@ class TetMesh {
     std::int32_t corner_at(std::int32_t tet, std::int32_t point) const;
     // Returns the corners of a face, counter-clockwise as seen from outside of its tet.
     std::array<glm::dvec3, 3> corners(const TetFace& face) const;
+    std::array<glm::dvec3, 4> corners(std::int32_t tet) const {
+        const auto& [a, b, c, d] = tets_[static_cast<std::size_t>(tet)];
+        const auto point = [&](std::int32_t corner) {
+            return points_[static_cast<std::size_t>(corner)];
+        };
+        return {point(a), point(b), point(c), point(d)};
+    }
 
     // Returns the tets of exactly zero volume, which show nothing.
     std::span<const std::int32_t> flat_tets() const { return flat_; }

@@ -231,10 +231,7 @@ class OverlapSearch {
     enum class Kind : std::uint8_t { inner, open, flat };
 
     PlacedTet placed(std::int32_t tet) const {
-        const Tet& corners = mesh_.tets()[tet];
-        PlacedTet found{{}, mesh_.place(corners)};
-        for (std::size_t i = 0; i < 4; ++i) found.corners[i] = mesh_.points()[corners[i]];
-        return found;
+        return {mesh_.corners(tet), mesh_.place(mesh_.tets()[tet])};
     }
     bool neighbors(std::int32_t a, std::int32_t b) const {
         return std::ranges::find(mesh_.neighbors()[a], b) != mesh_.neighbors()[a].end();
@@ -249,14 +246,9 @@ class OverlapSearch {
         open_boxes_.resize(open_.size());
         parallel_for(std::ssize(open_), tets_per_task, [&](std::int64_t index) {
             const std::int32_t tet = open_[index];
-            boxes_[index] = box_around(tet);
+            boxes_[index] = FaceTree::box_around(mesh_.corners(tet));
             open_boxes_[index] = around_open_faces(tet);
         });
-    }
-    FaceTree::Box box_around(std::int64_t tet) const {
-        FaceTree::Box box = FaceTree::nothing();
-        for (const std::int32_t corner : mesh_.tets()[tet]) box.add(mesh_.points()[corner]);
-        return box;
     }
     FaceTree::Box around_open_faces(std::int32_t tet) const {
         FaceTree::Box box = FaceTree::nothing();

@@ -213,12 +213,7 @@ void RingOrder::add_ring(std::span<const std::int32_t> tets, const OrderCycles& 
     for (std::size_t i = 0; i < members.size(); ++i) {
         check_interrupt();
         const std::int32_t tet = members[i];
-        std::array<glm::dvec3, 4> corners;
-        for (std::size_t corner = 0; corner < 4; ++corner) {
-            const std::int32_t point = mesh.tets()[tet][corner];
-            corners[corner] = mesh.points()[point];
-        }
-        whole.tets[i] = {tet, finder_.pixels_of(corners)};
+        whole.tets[i] = {tet, finder_.pixels_of(mesh.corners(tet))};
         for (std::int32_t edge = graph_.first_edge(tet); edge != OrderGraph::no_edge;
              edge = graph_.next_edge(tet, edge)) {
             const std::int32_t nearer = graph_.nearer(tet, edge);
