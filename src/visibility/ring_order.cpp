@@ -194,11 +194,11 @@ SeenPolygon RingOrder::seen_through(std::int32_t tet, std::int32_t edge) const {
     if (passage.shared) return exit;
     if (!passage.behind) return overlap_of(exit, finder_.polygon(passage.entry));
     const auto whole = [](const Triangle& corners) {
-        return CutTriangle{{corners[0], corners[1], corners[2]}, 3};
+        return CutTriangle{3, {corners[0], corners[1], corners[2]}};
     };
     const CutTriangle entry = part_behind(whole(passage.exit), whole(passage.entry),
                                           tie_distance(graph_.mesh(), graph_.eye()));
-    return overlap_of(exit, finder_.polygon(std::span(entry.corners).first(entry.count)));
+    return overlap_of(exit, finder_.polygon(entry.points()));
 }
 
 void RingOrder::add_ring(std::span<const std::int32_t> tets, const OrderCycles& cycles) {
