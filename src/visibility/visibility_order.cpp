@@ -74,9 +74,9 @@ DrawOrder<std::int32_t> VisibilityOrder::sort_pixels(const View& view,
         const auto overlaps = [&](std::int32_t tet) { return overlapping_[tet] != 0; };
         return breaks_all || (!overlapping_rings && std::ranges::any_of(ring, overlaps));
     };
-    const auto tets = sort(eye_of(view), meanwhile, breaks);
+    const auto tets = sort(eye_of(view), meanwhile, std::cref(breaks));  // takes no memory
     if (!graph_ || farthest_first_ || report_.cycles == 0 || breaks_all) return {tets, {}};
-    solve_rings(view, breaks);
+    solve_rings(view, std::cref(breaks));
     return rings_->order();
 }
 
