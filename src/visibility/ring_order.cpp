@@ -396,8 +396,10 @@ void RingOrder::draw_pixel(const Problem& problem, const PixelArea& pixel) {
     RaySpan reached{INFINITY, INFINITY};
     for (const std::int32_t index : order) {
         const RaySpan& span = span_of(index);
-        if (!(span.out > span.in)) continue;
         const Member& member = problem.tets[index];
+        // Rounding may give a tet without volume a span, at which it shares no space with others.
+        if (!(span.out > span.in) || std::ranges::binary_search(mesh.flat_tets(), member.tet))
+            continue;
         const double shorter = std::min(span.out - span.in, reached.out - reached.in);
         if (before != nullptr &&
             span.out - reached.in > overlap_share * shorter + overlap_of_depth * std::abs(span.out))

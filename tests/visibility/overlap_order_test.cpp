@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <vector>
@@ -254,7 +255,11 @@ std::optional<std::vector<std::int32_t>> surely_by_entry(const TetMesh& mesh, co
 
 TEST(OverlapOrder, DrawsRandomTetsByEntry) {
     std::int64_t pixels = 0, covered = 0, doubtful = 0, ordered_rings = 0;
-    for (std::uint32_t seed = 1; seed <= 600; ++seed) {
+    std::vector<std::uint32_t> seeds(600);
+    std::iota(seeds.begin(), seeds.end(), 1);
+    // Tets without volume lie within others.
+    seeds.insert(seeds.end(), {1742, 5215, 14944, 15156, 19014});
+    for (const std::uint32_t seed : seeds) {
         Draw draw{std::mt19937(seed)};
         MeshData data;
         for (int parts = draw.integer(1, 3); parts > 0; --parts) append_tets(data, draw);
@@ -266,7 +271,7 @@ TEST(OverlapOrder, DrawsRandomTetsByEntry) {
         for (int views = 0; views < 3; ++views) {
             const View view = random_view(draw);
             const DrawOrder<std::int32_t> found = order.sort_pixels(view);
-            EXPECT_EQ(order.report().broken, 0);
+            EXPECT_EQ(order.report().broken, 0) << "seed " << seed << ", view " << views;
             ordered_rings += !found.limited.empty();
             auto drawn = drawn_by_pixel(view, found);
             const glm::dvec3 moved = ray_perturbation(view);
