@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/profile.h"
 #include "facts/surface_rays.h"
 #include "facts/volume_facts.h"
 #include "mesh/face_tree.h"
@@ -77,16 +78,11 @@ RayGrid finer_grid(const View& view, const RayGrid& tried,
             std::max(tried.rows, static_cast<int>(share * view.height))};
 }
 
-double longest_edge(const TetMesh& mesh, std::int32_t number) {
-    const Tet& tet = mesh.tets()[static_cast<std::size_t>(number)];
-    const auto corner = [&](std::size_t i) {
-        return mesh.points()[static_cast<std::size_t>(tet[i])];
-    };
+double longest_edge(const TetMesh& mesh, std::int32_t tet) {
+    const auto corners = mesh.corners(tet);
     double longest = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-        for (std::size_t j = i + 1; j < 4; ++j)
-            longest = std::max(longest, glm::distance(corner(i), corner(j)));
-    }
+    for (const auto& [i, j] : tet_edges)
+        longest = std::max(longest, glm::distance(corners[i], corners[j]));
     return longest;
 }
 
@@ -165,8 +161,8 @@ void append_tets(const SceneMesh& mesh, const TetPieces& pieces,
 double pixels_around(const TetMesh& mesh, std::int32_t tet, const WindowView& window) {
     const glm::dvec2 size(window.view().width, window.view().height);
     glm::dvec2 low = size, high(0);
-    for (const std::int32_t corner : mesh.tets()[static_cast<std::size_t>(tet)]) {
-        const glm::dvec3 seen = window.see(mesh.points()[static_cast<std::size_t>(corner)]);
+    for (const glm::dvec3& corner : mesh.corners(tet)) {
+        const glm::dvec3 seen = window.see(corner);
         if (window.perspective() && !(seen.z > 0)) return size.x * size.y;
         const glm::dvec2 place = window.to_window(seen);
         low = glm::min(low, place);
@@ -178,13 +174,9 @@ double pixels_around(const TetMesh& mesh, std::int32_t tet, const WindowView& wi
 
 // Returns MeshOverlap::covered_pixels.
 std::int64_t covered_pixels(const TetMesh& mesh, std::span<const TetPair> pairs, const View& view) {
-    std::vector<std::int32_t> tets;
-    for (const auto& [a, b] : pairs) tets.insert(tets.end(), {a, b});
-    std::sort(tets.begin(), tets.end());
-    tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
     const WindowView window(view);
     double sum = 0;
-    for (const std::int32_t tet : tets) sum += pixels_around(mesh, tet, window);
+    for (const std::int32_t tet : tets_of(pairs)) sum += pixels_around(mesh, tet, window);
     return static_cast<std::int64_t>(sum);
 }
 
@@ -221,12 +213,15 @@ MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh) {
 }
 
 MeshOverlap measure_overlap(const SceneMesh& mesh, Convexity convexity, bool clipped) {
-    MeshOverlap found;
-    if (convexity == Convexity::none) found.tets = count_overlapping_tets(mesh.mesh);
-    if (found.tets == 0 || clipped) return found;
-    if (auto pairs = overlapping_pairs(mesh.mesh, most_ordered_pairs))
-        found.pairs = std::make_shared<const std::vector<TetPair>>(std::move(*pairs));
-    return found;
+    MeshOverlap overlap;
+    if (convexity != Convexity::none) return overlap;
+    const Stage searching("overlaps");
+    TetOverlaps found = find_overlaps(mesh.mesh, most_ordered_pairs);
+    overlap.tets = std::ssize(tets_of(found.pairs));
+    overlap.complete = found.complete;
+    if (!found.pairs.empty() && !clipped)
+        overlap.pairs = std::make_shared<const std::vector<TetPair>>(std::move(found.pairs));
+    return overlap;
 }
 
 void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {

@@ -16,15 +16,19 @@
 
 namespace lamina {
 
-// Tets that share space with others: how many, and in which pairs.
+// Tets that share space with others (mesh/tet_overlaps.h).
 struct MeshOverlap {
-    std::int64_t tets = 0;  // count_overlapping_tets() (mesh/mesh_shape.h)
-    // overlapping_pairs(); null if there are too many, a clip cuts the mesh, or no tets overlap.
+    std::int64_t tets = 0;  // number of tets that overlap others; 0 if too many pairs may
+    bool complete = true;   // TetOverlaps::complete
+    // TetOverlaps::pairs; null if there are too many, a clip cuts the mesh, or no tets overlap.
     // Shared by plans of one mesh.
     std::shared_ptr<const std::vector<TetPair>> pairs;
     // Sum of the pixels of a view that each tet of the pairs may cover: grows with the time that
     // their order takes.
     std::int64_t covered_pixels = 0;
+
+    // Tells whether surely no tets overlap.
+    bool none() const { return tets == 0 && complete; }
 };
 
 // Properties of a mesh and its view. They are measured, not taken from files.
@@ -98,13 +102,13 @@ inline constexpr std::int64_t most_covered_pixels = 15'000'000;
 // Tells whether an automatic order would take too long to solve the rings of overlapping tets.
 // Without their pairs, most pixels of rings have no right order and are divided one by one.
 inline bool orders_slowly(const Auto<ProjectOrder>& order, const MeshOverlap& overlap) {
-    return order.is_automatic() && overlap.tets > 0 &&
+    return order.is_automatic() && !overlap.none() &&
            (!overlap.pairs || overlap.covered_pixels > most_covered_pixels);
 }
 
 // Tells whether pictures show all overlapping tets, if any, as the tracer defines them (EntryRule).
 inline bool orders_overlaps(const Auto<ProjectOrder>& order, const MeshOverlap& overlap) {
-    return overlap.tets == 0 || (overlap.pairs && !orders_slowly(order, overlap));
+    return overlap.none() || (overlap.pairs && !orders_slowly(order, overlap));
 }
 
 // Measures all facts. Throws Error as check_finite() does.
@@ -113,7 +117,7 @@ MeshFacts measure(const Scene& scene, const SceneMesh& mesh);
 // Parts of measure(): mesh and transfer function, the view without rays, and trial_rays.
 MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh);
 // Returns MeshFacts::overlap without pixels, which takes longer and depends on the mesh alone.
-// `clipped`: a clip cuts the mesh, so its pairs are not found: tets that it cuts are several, which
+// `clipped`: a clip cuts the mesh, so its pairs are not kept: tets that it cuts are several, which
 // rays enter at places of their own.
 MeshOverlap measure_overlap(const SceneMesh& mesh, Convexity convexity, bool clipped);
 void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts);

@@ -28,7 +28,7 @@ class FaceTree {
     }
 
     FaceTree(const TetMesh& mesh, std::span<const TetFace> faces);
-    // Makes a tree of other things than faces, by their boxes.
+    // Makes a tree of other things than faces, by their boxes. Parallel.
     explicit FaceTree(std::span<const Box> boxes);
 
     // Calls visit(face index) for the faces of each leaf if meets(box) holds in it and all nodes
@@ -81,7 +81,7 @@ class FaceTree {
         std::int32_t first, end;  // range in order_
         std::int32_t right;  // right child, or -1 for a leaf; the left child follows its parent
     };
-    void build(std::span<const Box> boxes, std::int32_t first, std::int32_t end);
+    void build(std::span<const Box> boxes, std::size_t self, std::int32_t first, std::int32_t end);
 
     std::vector<Node> nodes_;
     std::vector<std::int32_t> order_;

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/mesh_shape.h"
 
-#include <atomic>
-#include <iterator>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
-#include <glm/vector_relational.hpp>
 #include "base/parallel.h"
-#include "mesh/face_tree.h"
 #include "mesh/predicates.h"
-#include "mesh/ray_walk.h"
 
 namespace lamina {
 namespace {
@@ -101,147 +97,75 @@ class FaceSets {
     std::size_t count_;
 };
 
-constexpr std::int64_t faces_per_task = 64;
-
-// Limit on the pairs of faces examined, per face on average. Real meshes need far fewer.
-constexpr std::int64_t max_tests_per_face = 60;
-
-constexpr std::int64_t most_lines = 500, lines_per_task = 8;  // one line tests one component
-
-bool meet(const FaceTree::Box& a, const FaceTree::Box& b) {
-    return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
-}
-
-// Tells whether the edge from p to q passes through the inside of a triangle.
-bool pierces(const glm::dvec3& p, const glm::dvec3& q, const Triangle& triangle) {
-    const auto& [a, b, c] = triangle;
-    if (orientation(a, b, c, p) * orientation(a, b, c, q) >= 0) return false;
-    const int first = orientation(p, q, a, b);
-    return first != 0 && orientation(p, q, b, c) == first && orientation(p, q, c, a) == first;
-}
-
-bool edge_pierces(const Triangle& edges, const Triangle& triangle) {
-    return pierces(edges[0], edges[1], triangle) || pierces(edges[1], edges[2], triangle) ||
-           pierces(edges[2], edges[0], triangle);
-}
-
-// Implements count_overlapping_tets(): marks tets in three searches, and counts the marks.
-class OverlapSearch {
+// Tells whether a closed surface without concave edges, which may cross itself, winds once around
+// its inside: pyramids on both sides of a pentagram wind twice (docs/numerics.md, Convex meshes).
+class Winding {
   public:
-    explicit OverlapSearch(const TetMesh& mesh)
-        : mesh_(mesh), tree_(mesh, mesh.open_faces()), overlapping_(mesh.tets().size()) {}
+    // `edges`: sorted; each stands there twice.
+    Winding(const TetMesh& mesh, std::span<const BoundaryEdge> edges)
+        : mesh_(mesh), edges_(edges) {}
 
-    std::int64_t count() {
-        mark_crossing();
-        mark_shared();
-        mark_inner_parts();
-        return std::ranges::count(overlapping_, 1);
+    bool is_single() {
+        const std::optional<std::int32_t> top = only_top();
+        return top && turns_once(*top);
     }
 
   private:
-    std::array<std::int32_t, 3> points_of(const TetFace& face) const {
-        std::array<std::int32_t, 3> points =
-            corners_of_face(mesh_.place(mesh_.tets()[face.tet]), face.face);
-        std::sort(points.begin(), points.end());
-        return points;
-    }
-    void mark(const TetFace& face) {
-        std::atomic_ref<std::uint8_t>(overlapping_[face.tet]).store(1, std::memory_order_relaxed);
-    }
+    const glm::dvec3& point(std::int32_t place) const { return mesh_.points()[place]; }
 
-    // Marks the tets of faces that cross. Faces with two points in common only touch.
-    void mark_crossing() {
-        const auto faces = mesh_.open_faces();
-        std::atomic<std::int64_t> left{max_tests_per_face * std::ssize(faces)};
-        parallel_for(std::ssize(faces), faces_per_task, [&](std::int64_t index) {
-            const TetFace& face = faces[index];
-            if (is_flat(face) || left <= 0) return;
-            std::int64_t looks = 0;
-            const Triangle here = mesh_.corners(face);
-            const FaceTree::Box box = FaceTree::box_around(here);
-            const auto points = points_of(face);
-            tree_.visit([&](const FaceTree::Box& other) { return meet(box, other); },
-                        [&](std::int32_t number) {
-                            if (number <= index) return;
-                            const TetFace& other = faces[number];
-                            if (++looks > left || is_flat(other)) return;
-                            if (shared_points(points, points_of(other)) >= 2) return;
-                            const Triangle there = mesh_.corners(other);
-                            if (!meet(box, FaceTree::box_around(there))) return;
-                            if (!edge_pierces(here, there) && !edge_pierces(there, here)) return;
-                            mark(face);
-                            mark(other);
-                        });
-            left -= looks;
-        });
-    }
-    bool is_flat(const TetFace& face) const {
-        return std::ranges::binary_search(mesh_.flat_tets(), face.tet);
-    }
-    static int shared_points(const std::array<std::int32_t, 3>& a,
-                             const std::array<std::int32_t, 3>& b) {
-        int shared = 0;
-        for (const std::int32_t point : a) shared += std::ranges::count(b, point) > 0;
-        return shared;
-    }
-
-    // Marks the tets of open faces with the same corners: two or more lie on one side of the face.
-    void mark_shared() {
-        if (mesh_.findings().folded_faces + mesh_.findings().nonmanifold_faces == 0) return;
-        std::vector<std::int32_t> order(mesh_.open_faces().size());
-        for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
-        const auto face_of = [&](std::int32_t number) -> const TetFace& {
-            return mesh_.open_faces()[number];
+    // Returns the surface's only point that is higher than its neighbours, if it has one and is a
+    // sphere, by Euler's formula. "Higher" is along the cross product of two vectors.
+    std::optional<std::int32_t> only_top() const {
+        constexpr std::uint8_t elsewhere = 0, highest = 1, lower = 2;
+        std::vector<std::uint8_t> state(mesh_.points().size(), elsewhere);
+        const auto see = [&](std::int32_t place, bool is_lower) {
+            state[place] = is_lower ? lower : std::max(state[place], highest);
         };
-        std::ranges::sort(order, {},
-                          [&](std::int32_t number) { return points_of(face_of(number)); });
-        for (std::size_t i = 1; i < order.size(); ++i) {
-            const TetFace &a = face_of(order[i - 1]), &b = face_of(order[i]);
-            if (points_of(a) != points_of(b)) continue;
-            mark(a);
-            mark(b);
+        for (std::size_t i = 0; i < edges_.size(); i += 2) {
+            const auto& [low, high, face, apex] = edges_[i];
+            const int sign = sign_of_determinant(point(low), point(high), across, glm::dvec3(0),
+                                                 other_across, glm::dvec3(0));
+            if (sign == 0) return {};
+            see(low, sign < 0);
+            see(high, sign > 0);
         }
+        const auto points = std::ranges::count_if(state, [](auto s) { return s != elsewhere; });
+        if (2 * points != std::ssize(mesh_.open_faces()) + 4) return {};
+        const auto top = std::ranges::find(state, highest);
+        if (top == state.end() || std::find(top + 1, state.end(), highest) != state.end())
+            return {};
+        return static_cast<std::int32_t>(top - state.begin());
     }
 
-    // Marks a tet of each connected component (part) inside another one. If no faces cross, a
-    // component is inside as a whole, so one line through it suffices.
-    void mark_inner_parts() {
-        if (std::ranges::count(overlapping_, 1) > 0) return;
-        std::vector<char> seen(mesh_.tets().size());
-        std::vector<std::int32_t> waiting;
-        std::vector<TetFace> parts;  // one open face of each component
-        for (const TetFace& face : mesh_.open_faces()) {
-            if (seen[face.tet]) continue;
-            visit_part(face.tet, seen, waiting);
-            parts.push_back(face);
+    // Tells whether the points around the top turn once around it: then they come nearer to a
+    // plane that turns about an axis through the top, and then go away from it, once each.
+    bool turns_once(std::int32_t top) const {
+        std::vector<std::pair<std::int32_t, bool>>
+            ways;  // each point twice: do the two edges rise?
+        for (std::int32_t face = 0; face < std::ssize(mesh_.open_faces()); ++face) {
+            const auto corners = open_face(mesh_, face);
+            const auto at = std::ranges::find(corners, top) - corners.begin();
+            if (at == 3) continue;
+            const std::int32_t from = corners[(at + 1) % 3], to = corners[(at + 2) % 3];
+            const int sign = sign_of_determinant(point(from), point(top), point(to), point(top),
+                                                 across, glm::dvec3(0));
+            if (sign == 0) return false;
+            ways.emplace_back(from, sign > 0);
+            ways.emplace_back(to, sign > 0);
         }
-        if (parts.size() == 1) return;
-        const std::int64_t step = (std::ssize(parts) - 1) / most_lines + 1;
-        parallel_for((std::ssize(parts) - 1) / step + 1, lines_per_task, [&](std::int64_t index) {
-            const TetFace& face = parts[index * step];
-            const auto [a, b, c] = mesh_.corners(face);
-            RayWalk walk(mesh_, tree_);
-            walk.aim((a + b + c) / 3.0, glm::cross(b - a, c - a));
-            if (walk.overlapping()) mark(face);
-        });
+        std::ranges::sort(ways);
+        int turns = 0;  // points at which a rise ends or begins
+        for (std::size_t i = 0; i + 1 < ways.size(); i += 2)
+            turns += ways[i].second != ways[i + 1].second;
+        return turns == 2;
     }
-    void visit_part(std::int32_t tet, std::vector<char>& seen, std::vector<std::int32_t>& waiting) {
-        waiting.assign(1, tet);
-        seen[tet] = 1;
-        while (!waiting.empty()) {
-            const std::int32_t here = waiting.back();
-            waiting.pop_back();
-            for (const std::int32_t next : mesh_.neighbors()[here]) {
-                if (next == TetMesh::no_neighbor || seen[next]) continue;
-                seen[next] = 1;
-                waiting.push_back(next);
-            }
-        }
-    }
+
+    // Vectors that are at right angles to no edge of a mesh, but by a chance of 1e-15.
+    static constexpr glm::dvec3 across{1, .7548776662466927, .1180339887498949},
+        other_across{.2360679774997897, 1, .5698402909980532};
 
     const TetMesh& mesh_;
-    FaceTree tree_;
-    std::vector<std::uint8_t> overlapping_;
+    std::span<const BoundaryEdge> edges_;
 };
 
 }  // namespace
@@ -254,14 +178,11 @@ EdgeLengths edge_lengths(const TetMesh& mesh) {
         EdgeLengths& mine = found[task];
         const std::int64_t end = std::min(tets, (task + 1) * tets_per_task);
         for (std::int64_t tet = task * tets_per_task; tet < end; ++tet) {
-            const Tet& corners = mesh.tets()[tet];
-            for (std::size_t i = 0; i < 4; ++i) {
-                for (std::size_t j = i + 1; j < 4; ++j) {
-                    const double length =
-                        glm::length(mesh.points()[corners[j]] - mesh.points()[corners[i]]);
-                    mine.shortest = std::min(mine.shortest, length);
-                    mine.longest = std::max(mine.longest, length);
-                }
+            const auto corners = mesh.corners(static_cast<std::int32_t>(tet));
+            for (const auto& [i, j] : tet_edges) {
+                const double length = glm::length(corners[j] - corners[i]);
+                mine.shortest = std::min(mine.shortest, length);
+                mine.longest = std::max(mine.longest, length);
             }
         }
     });
@@ -290,11 +211,7 @@ Convexity convexity(const TetMesh& mesh) {
         result = std::min(result, here);
         surfaces.join(edges[i].face, edges[i + 1].face);
     }
-    return surfaces.count() == 1 ? result : Convexity::none;
-}
-
-std::int64_t count_overlapping_tets(const TetMesh& mesh) {
-    return OverlapSearch(mesh).count();
+    return surfaces.count() == 1 && Winding(mesh, edges).is_single() ? result : Convexity::none;
 }
 
 }  // namespace lamina

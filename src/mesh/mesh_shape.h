@@ -20,18 +20,14 @@ enum class Convexity {
     exact             // no boundary edge is concave at all
 };
 
-// Tells whether the mesh fills a convex body: its boundary is one closed surface without a concave
-// edge (Tietze 1928, Nakajima 1928), and no face is folded or nonmanifold. Dents as deep as the
+// Tells whether the mesh fills a convex body, each place once: its boundary is one closed surface
+// without a concave edge (Tietze 1928, Nakajima 1928) that winds once around its inside, and no
+// face is folded or nonmanifold. Dents as deep as the
 // rounding of doubles (1e-16) are within_rounding; those of float coordinates (1e-8) are not.
 Convexity convexity(const TetMesh& mesh);
 
 inline bool convex(const TetMesh& mesh) {
     return convexity(mesh) != Convexity::none;
 }
-
-// Counts the tets at whose open faces the mesh overlaps itself: tets of faces that cross, are
-// folded or nonmanifold, and one of each connected component inside another (tests up to 500
-// components). Finds all crossing faces unless the search would take too long. Parallel.
-std::int64_t count_overlapping_tets(const TetMesh& mesh);
 
 }  // namespace lamina

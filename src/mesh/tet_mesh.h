@@ -9,6 +9,10 @@
 
 namespace lamina {
 
+// The numbers of the corners at the ends of a tet's six edges.
+inline constexpr std::array<std::array<std::size_t, 2>, 6> tet_edges{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
 // Faults that were found, and partly repaired, while a mesh was assembled.
 struct MeshFindings {
     std::int64_t tets_read = 0;
@@ -59,6 +63,13 @@ class TetMesh {
     std::int32_t corner_at(std::int32_t tet, std::int32_t point) const;
     // Returns the corners of a face, counter-clockwise as seen from outside of its tet.
     std::array<glm::dvec3, 3> corners(const TetFace& face) const;
+    std::array<glm::dvec3, 4> corners(std::int32_t tet) const {
+        const auto& [a, b, c, d] = tets_[static_cast<std::size_t>(tet)];
+        const auto point = [&](std::int32_t corner) {
+            return points_[static_cast<std::size_t>(corner)];
+        };
+        return {point(a), point(b), point(c), point(d)};
+    }
 
     // Returns the tets of exactly zero volume, which show nothing.
     std::span<const std::int32_t> flat_tets() const { return flat_; }

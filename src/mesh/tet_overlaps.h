@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,10 +16,21 @@ namespace lamina {
 // The numbers of two tets, the smaller one first.
 using TetPair = std::pair<std::int32_t, std::int32_t>;
 
-// Lists all pairs of tets whose insides have a point in common, ascending. Pairs that touch up to
-// rounding may be listed, too; neighbours and tets without volume never are. Returns nothing if
-// there are more than `most` pairs, or more candidates than can be examined. Parallel.
-std::optional<std::vector<TetPair>> overlapping_pairs(const TetMesh& mesh, std::size_t most);
+// The tets of a mesh that overlap: two tets do if their insides have a point in common.
+struct TetOverlaps {
+    // All pairs, ascending. Pairs that touch up to rounding may be listed, too; neighbours and tets
+    // without volume never are.
+    std::vector<TetPair> pairs;
+    // False: there are too many pairs, or too many tets that lie close together. `pairs` is empty.
+    bool complete = true;
+};
+
+// Returns the tets of all pairs, ascending.
+std::vector<std::int32_t> tets_of(std::span<const TetPair> pairs);
+
+// Finds all overlaps of a mesh, unless there are more than `most` pairs. Parallel; the time grows
+// with the number of open faces and of overlaps, and hardly with that of tets.
+TetOverlaps find_overlaps(const TetMesh& mesh, std::size_t most);
 
 // The rule by which a ray composites the segments of overlapping tets, as whole segments one after
 // the other: by ascending parameter at which it enters the tet, at `start` if the tet begins before

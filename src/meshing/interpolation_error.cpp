@@ -308,7 +308,7 @@ class Measurement {
                 error_.bound = std::max(error_.bound, bound);
                 continue;
             }
-            const auto& [a, b] = BernsteinCubic::edges[cubic.edge_to_halve(piece)];
+            const auto& [a, b] = tet_edges[cubic.edge_to_halve(piece)];
             const glm::dvec3 middle = 0.5 * (piece.corners[a] + piece.corners[b]);
             const double value = 0.5 * (piece.values[a] + piece.values[b]);
             for (const std::size_t moved : {a, b}) {

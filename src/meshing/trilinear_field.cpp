@@ -310,7 +310,7 @@ BernsteinCubic::BernsteinCubic(const TrilinearPolynomial& polynomial, const Cell
         difference[i] = trilinear[i] - v[i];
     }
     for (std::size_t edge = 0; edge < 6; ++edge) {
-        const auto& [a, b] = edges[edge];
+        const auto& [a, b] = tet_edges[edge];
         const glm::dvec3 along = p[b] - p[a];
         trilinear[4 + 2 * edge] = trilinear[a] + glm::dot(slope[a], along);
         trilinear[5 + 2 * edge] = trilinear[b] - glm::dot(slope[b], along);
@@ -339,7 +339,7 @@ std::size_t BernsteinCubic::edge_to_halve(const CellPiece& piece) const {
         at_corners = std::max(at_corners, std::abs(difference[corner]));
     }
     for (std::size_t edge = 0; edge < 6; ++edge) {
-        const auto& [a, b] = edges[edge];
+        const auto& [a, b] = tet_edges[edge];
         const double near_a = difference[4 + 2 * edge], near_b = difference[5 + 2 * edge];
         const glm::dvec3 along = piece.corners[b] - piece.corners[a];
         most_bent.offer(edge, std::max(std::abs(difference[a] - 2 * near_a + near_b),

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "lamina/volume.h"
+#include "mesh/tet_mesh.h"
 #include "volume/min_max_bricks.h"
 
 namespace lamina {
@@ -93,10 +94,8 @@ struct TrilinearPolynomial {
 // A trilinear function, and its difference from a linear one, on a tet: cubics in Bernstein form.
 // Their values lie between the least and the largest coefficient.
 struct BernsteinCubic {
-    // Coefficients: 0 to 3 at corners; 4 + 2i, 5 + 2i near the ends of edge i; 16 + i in face i.
-    static constexpr std::array<std::array<std::size_t, 2>, 6> edges{
-        {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
+    // Coefficients: 0 to 3 at corners; 4 + 2i, 5 + 2i near the ends of tet_edges[i]; 16 + i in face
+    // i.
     std::array<double, 20> trilinear;   // coefficients of the trilinear function
     std::array<double, 20> difference;  // coefficients of trilinear - linear
 

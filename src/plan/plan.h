@@ -101,7 +101,8 @@ struct ProjectedPicture : CompositingPlan, LightPlan {
     Interpolation interpolation = Interpolation::perspective;
     Thickness thickness = Thickness::exact;
     OrderMethod visibility = OrderMethod::exact;
-    // True: rings of tets that hide one another are sorted by pixel (visibility/ring_order.h).
+    // True: rings of tets that hide one another are sorted by pixel (visibility/ring_order.h), also
+    // those with tets that overlap.
     bool solve_rings = false;
     // The pairs of tets that overlap, to be ordered by entry (mesh/tet_overlaps.h); may be null.
     std::shared_ptr<const std::vector<TetPair>> overlaps;

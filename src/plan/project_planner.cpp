@@ -338,7 +338,7 @@ struct ProjectPlanner {
                !(capabilities.software && scene.lighting) && plan.target == Target::float32 &&
                plan.geometry == ProjectGeometry::silhouette && plan.tree.empty() &&
                plan.thickness == Thickness::exact && !plan.nothing_visible &&
-               (plan.solve_rings || plan.single_color) && facts.overlap.tets == 0 &&
+               (plan.solve_rings || plan.single_color) && facts.overlap.none() &&
                facts.shortest_edge > shortest * facts.diagonal && !plan.windowed &&
                (facts.orthographic || facts.box_in_front) &&
                (!capabilities.software || scene.transfer_function->knots().size() <= most_points) &&

@@ -28,9 +28,6 @@
 namespace lamina {
 namespace {
 
-// Pixels by which tets' outlines are enlarged, which exceeds the outlines' rounding errors.
-constexpr double margin = 1e-3;
-
 FragmentOutput output_of(const ProjectPlan& plan) {
     if (plan.dither == ProjectDither::after_blend) return FragmentOutput::stochastic;
     if (plan.emulation) return FragmentOutput::emulated;
@@ -126,8 +123,9 @@ void CpuProjectRenderer::draw(const View& view, Progress* progress) {
     Stage drawing("draw");
     set_view(view);
     const View seen = seeing_in_units(view, plan_.unit);
-    const TetsInView tets{mesh_.mesh,       mesh_.scalar.values, plan_.range, pieces_,
-                          WindowView(seen), plan_.near_depth,    margin,      gradients_.at_points};
+    const TetsInView tets{mesh_.mesh,     mesh_.scalar.values, plan_.range,
+                          pieces_,        WindowView(seen),    plan_.near_depth,
+                          outline_margin, gradients_.at_points};
     const Projectors projectors{tets, TetProjector(tets), {mesh_, transfer_function_, plan_, seen}};
     if (tree_) {
         draw_tree(projectors, cell_fragments, progress);
@@ -306,7 +304,8 @@ void CpuProjectRenderer::project_careful(const TetProjector& projector,
     const auto kind =
         projector.project(cell_fragment, chunk.next(), outline, chunk.next_gradient());
     if (!kind) return;
-    const PixelBounds bounds = pixel_bounds(outline.points(), margin, grid.width(), grid.height());
+    const PixelBounds bounds =
+        pixel_bounds(outline.points(), outline_margin, grid.width(), grid.height());
     // These few cell fragments are drawn as careful ones, which is right for every kind. Plans that
     // are not `plain`, which draw all this way, take DepthBound::any, because their weights come
     // from FrontWeightTable.

@@ -188,10 +188,9 @@ void GlTetCodes::draw(const View& view, Progress* progress) {
     Stage drawing("draw");
     set_view(view);
     pace_->begin_frame();
-    constexpr double margin = 1e-3;  // pixel, as on the CPU: far beyond rounding
     const TetProjector projector({mesh_.mesh, mesh_.scalar.values, plan_.range, pieces_,
                                   WindowView(seeing_in_units(view, plan_.unit)), plan_.near_depth,
-                                  margin, gradients_.at_points});
+                                  outline_margin, gradients_.at_points});
     timeline_.begin("draw");
     if (tree_) {
         Leaves leaves(*this, projector, cell_fragments);

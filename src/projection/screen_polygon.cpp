@@ -63,20 +63,6 @@ Hull convex_hull(std::span<const glm::dvec2> points) {
     return hull;
 }
 
-// Returns the hull's region with a coordinate `axis` of at most `limit` or, if `sign` is -1, at
-// least `limit` (Sutherland and Hodgman 1974).
-Hull cut(const Hull& hull, int axis, double limit, double sign) {
-    Hull clipped;
-    for (std::size_t i = 0; i < hull.count; ++i) {
-        const glm::dvec2& a = hull.corners[i];
-        const glm::dvec2& b = hull.corners[(i + 1) % hull.count];
-        const double inside_a = sign * (limit - a[axis]), inside_b = sign * (limit - b[axis]);
-        if (inside_a >= 0) clipped.add(a);
-        if (inside_a * inside_b < 0) clipped.add(a + inside_a / (inside_a - inside_b) * (b - a));
-    }
-    return clipped;
-}
-
 struct Bounds {
     glm::dvec2 min, max;
 };
@@ -154,8 +140,10 @@ ScreenPolygon surround(std::span<const glm::dvec2> points, double margin, int wi
     Hull hull = convex_hull(points);
     const glm::dvec2 lo(-picture_margin), hi(width + picture_margin, height + picture_margin);
     for (const int axis : {0, 1}) {
-        if (bounds.min[axis] < lo[axis]) hull = cut(hull, axis, lo[axis], -1);
-        if (bounds.max[axis] > hi[axis]) hull = cut(hull, axis, hi[axis], 1);
+        if (bounds.min[axis] < lo[axis])
+            hull = cut(hull, [&](const glm::dvec2& p) { return p[axis] - lo[axis]; });
+        if (bounds.max[axis] > hi[axis])
+            hull = cut(hull, [&](const glm::dvec2& p) { return hi[axis] - p[axis]; });
     }
     if (hull.count == 0) return {};
     // A rectangle may cover more than the tet: fragments beside the tet find segments of length 0.

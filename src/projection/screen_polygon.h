@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <span>
 
+#include "mesh/few_points.h"
+
 namespace lamina {
 
 // A convex polygon in window coordinates: pixels to the right and upwards from the picture's lower
@@ -16,18 +18,6 @@ struct ScreenPolygon {
 
     int count = 0;
     std::array<glm::vec2, most_corners> corners;
-};
-
-// A list of up to `most` points; points beyond that number are dropped.
-template <typename Point, std::size_t most>
-struct FewPoints {
-    std::size_t count = 0;
-    std::array<Point, most> corners;
-
-    void add(const Point& point) {
-        if (count < most) corners[count++] = point;
-    }
-    std::span<const Point> points() const { return {corners.data(), count}; }
 };
 
 // The points whose convex hull is the image of a convex body, in window coordinates.

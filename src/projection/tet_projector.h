@@ -80,6 +80,10 @@ struct StoredGradients {
     float smallest_square(const Lighting& lighting) const;
 };
 
+// TetsInView::margin if no rasteriser rounds outlines to its grid: pixels, far above their
+// rounding.
+inline constexpr double outline_margin = 1e-3;
+
 // The tets of a mesh and the view in which they are projected. It does not own what it refers to.
 struct TetsInView {
     const TetMesh& mesh;

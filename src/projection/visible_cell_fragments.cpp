@@ -93,9 +93,7 @@ DrawOrder<CellFragment> VisibleCellFragments::sorted(VisibilityOrder& order, con
     Stage sorting("sort");
     const Eye eye = eye_of(view);
     const auto look = [&] { look_from(eye); };
-    const DrawOrder<std::int32_t> tets = solve_rings
-                                             ? order.sort_pixels(view, look)
-                                             : DrawOrder<std::int32_t>{order.sort(eye, look), {}};
+    const DrawOrder<std::int32_t> tets = order.sort_pixels(view, look, solve_rings);
     sorting.end();
     const Stage listing("parts");
     list_tets(tets.items);
@@ -153,12 +151,9 @@ std::size_t VisibleCellFragments::count_in_tet(std::int32_t tet) const {
 std::int32_t VisibleCellFragments::nearest_piece(std::size_t index, const Eye& eye) const {
     const TetPieces::Span& span = spans_[index].span;
     const Tet& tet = mesh_.tets()[index];
-    TetField::Corners corners;
+    const TetField::Corners corners = mesh_.corners(static_cast<std::int32_t>(index));
     TetField::Values values;
-    for (std::size_t i = 0; i < 4; ++i) {
-        corners[i] = mesh_.points()[static_cast<std::size_t>(tet[i])];
-        values[i] = scalar_[static_cast<std::size_t>(tet[i])];
-    }
+    for (std::size_t i = 0; i < 4; ++i) values[i] = scalar_[static_cast<std::size_t>(tet[i])];
     const TetField field(corners, values, nullptr);
     const double at_eye = !eye.at_infinity                               ? field.at(eye.position)
                           : glm::dot(field.gradient(), eye.position) > 0 ? -INFINITY

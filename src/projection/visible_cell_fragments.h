@@ -29,7 +29,7 @@ class VisibleCellFragments {
     // Sorts the tets for this view, then lists their cell fragments. `scattered` (equal in every
     // call): lists them in a random order instead, equal for every view, so that cell fragments of
     // one region lie in different leaves of a tree; the first list then serves all calls.
-    // `solve_rings`: pixels that need an order of their own get one (VisibilityOrder::sort_pixels).
+    // `solve_rings`: as `overlapping_rings` of VisibilityOrder::sort_pixels().
     DrawOrder<CellFragment> sorted(VisibilityOrder& order, const View& view, bool scattered,
                                    bool solve_rings);
     // Returns the number of cell fragments. Lists are longer if tets are listed more than once, for

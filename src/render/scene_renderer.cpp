@@ -298,7 +298,7 @@ class ProjectDrawing : public Drawing {
     Resolved resolve(Scene scene, const Plan& plan) const override {
         const ProjectPlan& project = plan.project;
         ProjectSettings& settings = scene.project;
-        if (settings.order.is_automatic() && !settings.tree && facts_.overlap.tets == 0)
+        if (settings.order.is_automatic() && !settings.tree && facts_.overlap.none())
             settings.order = order_of(project.visibility);
         settings.geometry = project.geometry;
         if (project.source == SegmentSource::analytic) settings.coloring = Coloring::analytic;

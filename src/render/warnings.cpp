@@ -292,9 +292,12 @@ Warnings plan_warnings(const Scene& scene, const ProjectPlan& plan, const MeshOv
     Warnings warnings;
     add_clamped_colors(scene, warnings);
     const Auto<ProjectOrder>& order = scene.project.order;
-    if (overlap.tets > 0 && !plan.single_color) {
+    if (!overlap.none() && !plan.single_color) {
+        const std::string which =
+            overlap.complete ? fmt::format("{} tets overlap others", overlap.tets)
+                             : "too many tets overlap others, or lie too close together to tell";
         warnings.push_back(fmt::format(
-            "{}: {} tets overlap others: {}", name_of_mesh(scene), overlap.tets,
+            "{}: {}: {}", name_of_mesh(scene), which,
             orders_overlaps(order, overlap)
                 ? "a ray shows them one after the other, whole, in the order in which it enters "
                   "them"

@@ -4,35 +4,14 @@
 #include <array>
 
 #include "mesh/face_tree.h"
+#include "mesh/few_points.h"
 #include "mesh/predicates.h"
 #include "mesh/tet_mesh.h"
 
 namespace lamina {
 
-// Returns the part of a convex polygon in which height(), a linear function of the place, is >= 0
-// (Sutherland and Hodgman, Reentrant polygon clipping, 1974).
-template <typename Polygon, typename Height>
-Polygon cut(const Polygon& polygon, const Height& height) {
-    Polygon kept;
-    for (std::size_t i = 0; i < polygon.count; ++i) {
-        const auto& a = polygon.corners[i];
-        const auto& b = polygon.corners[(i + 1) % polygon.count];
-        const double at_a = height(a), at_b = height(b);
-        if (at_a >= 0) kept.add(a);
-        if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0))
-            kept.add(a + (at_a / (at_a - at_b)) * (b - a));
-    }
-    return kept;
-}
-
 // A triangle cut by up to four planes, each of which adds at most one corner.
-struct CutTriangle {
-    std::array<glm::dvec3, 7> corners;
-    std::size_t count = 0;
-    void add(const glm::dvec3& corner) {
-        if (count < corners.size()) corners[count++] = corner;
-    }
-};
+using CutTriangle = FewPoints<glm::dvec3, 7>;
 
 // Returns the part of an entry that is behind an exit's plane, or less than `slack` in front of it.
 CutTriangle part_behind(const CutTriangle& exit, const CutTriangle& entry, double slack);

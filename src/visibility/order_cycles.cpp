@@ -214,7 +214,7 @@ void OrderCycles::forget() {
     remembers_ = false;
 }
 
-OrderCycles::Found OrderCycles::order(const OrderGraph& graph, bool break_rings) {
+OrderCycles::Found OrderCycles::order(const OrderGraph& graph, const RingChoice& breaks) {
     const auto counts = graph.farther_counts();
     reserve(counts.size());
     forget();
@@ -230,8 +230,9 @@ OrderCycles::Found OrderCycles::order(const OrderGraph& graph, bool break_rings)
     Found found;
     for (std::size_t id = 0; id < cyclic_.size(); ++id) {
         ++found.cycles;
-        found.cyclic_tets += static_cast<std::int64_t>(cyclic_[id].end - cyclic_[id].first);
-        if (!break_rings) continue;
+        const auto [first, end] = cyclic_[id];
+        found.cyclic_tets += static_cast<std::int64_t>(end - first);
+        if (!breaks(std::span(memory_).subspan(first, end - first))) continue;
         const CycleBreaker::Broken broken = break_ring(graph, static_cast<std::int32_t>(id));
         found.broken.edges += broken.edges;
         found.broken.area += broken.area;

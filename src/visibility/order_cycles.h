@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+
 #include "visibility/order_graph.h"
 
 namespace lamina {
@@ -79,8 +81,11 @@ class OrderCycles {
         CycleBreaker::Broken broken;
     };
     // Orders all tets whose farther count is above zero. No edge may lead from these to other tets.
-    // Linear time (n log n in a component). `break_rings`: orders the tets inside components, too.
-    Found order(const OrderGraph& graph, bool break_rings = true);
+    // Linear time (n log n in a component). `breaks`: tells of the tets of each component whether
+    // these are ordered, too.
+    using RingChoice = std::function<bool(std::span<const std::int32_t> tets)>;
+    static bool all(std::span<const std::int32_t> /*tets*/) { return true; }
+    Found order(const OrderGraph& graph, const RingChoice& breaks = all);
 
     // Returns the tets that order() ordered, back to front.
     std::span<const std::int32_t> sequence() const { return sequence_; }

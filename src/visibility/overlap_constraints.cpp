@@ -117,13 +117,28 @@ void OverlapConstraints::order_front(const Eye& eye, double tie, std::int32_t a,
     if (!a_shows && !b_shows) return;
     const Triangle face_a = mesh_.corners(faces_[a_first.exit]),
                    face_b = mesh_.corners(faces_[a_first.entry]);
-    if (std::min(distance_from_plane(face_a, face_b), distance_from_plane(face_b, face_a)) <=
-        share_of_tie * tie)
-        return found.push_back(a_first);
+    const bool in_one_plane = std::min(distance_from_plane(face_a, face_b),
+                                       distance_from_plane(face_b, face_a)) <= share_of_tie * tie;
     const bool unsure =
+        in_one_plane ||
         glm::length(glm::cross(normal_of(face_a), normal_of(face_b))) < nearly_parallel;
+    if (unsure) {
+        order_before(a, of_a, a_first.entry, found);
+        order_before(b, of_b, a_first.exit, found);
+    }
+    if (in_one_plane) return found.push_back(a_first);
     if (a_shows || unsure) found.push_back(a_first);
     if (b_shows || unsure) found.push_back(b_first);
+}
+
+// Finds constraint 3: rays leave a tet's neighbour in front of it where they enter another tet.
+void OverlapConstraints::order_before(std::int32_t tet, std::size_t front, std::int32_t entry,
+                                      Found& found) const {
+    const std::int32_t before = mesh_.neighbors()[tet][front];
+    if (before == TetMesh::no_neighbor) return;
+    const auto& across = mesh_.neighbors()[before];
+    const auto exit = static_cast<std::size_t>(std::ranges::find(across, tet) - across.begin());
+    found.push_back({face_index(before, exit), entry});
 }
 
 // Finds constraint 2: rays leave `inner` by an open face, then `outer` by a shared one.

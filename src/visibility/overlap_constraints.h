@@ -14,12 +14,15 @@ namespace lamina {
 // so that S and P overlap. Hence for each pair of overlapping tets:
 //   1. the tet that a ray enters first is nearer: its front face is before the other's;
 //   2. one of them, if the ray leaves it by an open face before it leaves the other one by a shared
-//      face, is nearer than the other one's neighbour there.
+//      face, is nearer than the other one's neighbour there;
+//   3. if the ray enters both at one place, the tet that it left there for one of them is nearer
+//      than the other one: S may end at a shared face where T begins, and T come before S's
+//      neighbour by its number.
 // A tet around the eye is entered at the eye. Tets whose front faces lie in one plane are ordered
 // by their numbers.
 class OverlapConstraints {
   public:
-    // `pairs`: all overlapping_pairs() of the mesh, which must outlive this object.
+    // `pairs`: all TetOverlaps::pairs of the mesh, which must outlive this object.
     OverlapConstraints(const TetMesh& mesh, std::span<const TetPair> pairs);
 
     // Returns the open faces of the mesh and, after them, faces of overlapping tets: constraints
@@ -48,6 +51,7 @@ class OverlapConstraints {
     void order_fronts(const Eye& eye, double tie, const TetPair& pair, Found& found) const;
     void order_front(const Eye& eye, double tie, std::int32_t a, std::size_t of_a, std::int32_t b,
                      std::size_t of_b, Found& found) const;
+    void order_before(std::int32_t tet, std::size_t front, std::int32_t entry, Found& found) const;
     void order_behind(const Eye& eye, std::int32_t inner, std::int32_t outer, Found& found) const;
 
     const TetMesh& mesh_;

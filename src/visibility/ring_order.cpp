@@ -194,11 +194,11 @@ SeenPolygon RingOrder::seen_through(std::int32_t tet, std::int32_t edge) const {
     if (passage.shared) return exit;
     if (!passage.behind) return overlap_of(exit, finder_.polygon(passage.entry));
     const auto whole = [](const Triangle& corners) {
-        return CutTriangle{{corners[0], corners[1], corners[2]}, 3};
+        return CutTriangle{3, {corners[0], corners[1], corners[2]}};
     };
     const CutTriangle entry = part_behind(whole(passage.exit), whole(passage.entry),
                                           tie_distance(graph_.mesh(), graph_.eye()));
-    return overlap_of(exit, finder_.polygon(std::span(entry.corners).first(entry.count)));
+    return overlap_of(exit, finder_.polygon(entry.points()));
 }
 
 void RingOrder::add_ring(std::span<const std::int32_t> tets, const OrderCycles& cycles) {
@@ -213,12 +213,7 @@ void RingOrder::add_ring(std::span<const std::int32_t> tets, const OrderCycles& 
     for (std::size_t i = 0; i < members.size(); ++i) {
         check_interrupt();
         const std::int32_t tet = members[i];
-        std::array<glm::dvec3, 4> corners;
-        for (std::size_t corner = 0; corner < 4; ++corner) {
-            const std::int32_t point = mesh.tets()[tet][corner];
-            corners[corner] = mesh.points()[point];
-        }
-        whole.tets[i] = {tet, finder_.pixels_of(corners)};
+        whole.tets[i] = {tet, finder_.pixels_of(mesh.corners(tet))};
         for (std::int32_t edge = graph_.first_edge(tet); edge != OrderGraph::no_edge;
              edge = graph_.next_edge(tet, edge)) {
             const std::int32_t nearer = graph_.nearer(tet, edge);
@@ -401,8 +396,10 @@ void RingOrder::draw_pixel(const Problem& problem, const PixelArea& pixel) {
     RaySpan reached{INFINITY, INFINITY};
     for (const std::int32_t index : order) {
         const RaySpan& span = span_of(index);
-        if (!(span.out > span.in)) continue;
         const Member& member = problem.tets[index];
+        // Rounding may give a tet without volume a span, at which it shares no space with others.
+        if (!(span.out > span.in) || std::ranges::binary_search(mesh.flat_tets(), member.tet))
+            continue;
         const double shorter = std::min(span.out - span.in, reached.out - reached.in);
         if (before != nullptr &&
             span.out - reached.in > overlap_share * shorter + overlap_of_depth * std::abs(span.out))

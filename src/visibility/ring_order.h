@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <utility>
 
+#include "mesh/few_points.h"
 #include "scene/camera.h"
 #include "visibility/order_cycles.h"
 #include "visibility/order_graph.h"
@@ -42,19 +43,10 @@ struct DrawOrder {
     }
 };
 
-// A convex polygon in pixels, rows downwards; the centre of pixel (i, j) is at (i, j).
-struct SeenPolygon {
-    // The overlap of two triangles, cut by the near plane to at most 4 corners; one of them may
-    // first have been cut by a plane, to at most 5.
-    static constexpr std::size_t most_corners = 9;
-
-    std::size_t count = 0;
-    std::array<glm::dvec2, most_corners> corners;
-
-    void add(const glm::dvec2& corner) {
-        if (count < most_corners) corners[count++] = corner;
-    }
-};
+// A convex polygon in pixels, rows downwards; the centre of pixel (i, j) is at (i, j). It has at
+// most the corners of the overlap of two triangles, cut by the near plane to at most 4 corners; one
+// of them may first have been cut by a plane, to at most 5.
+using SeenPolygon = FewPoints<glm::dvec2, 9>;
 
 // Projects triangles and points to pixels, in perspective from z = `near` on; no pixel is lost.
 class PixelFinder {

@@ -56,6 +56,8 @@ VisibilityOrder::VisibilityOrder(const TetMesh& mesh, OrderMethod method,
     std::iota(order_.begin(), order_.end(), 0);
     if (method == OrderMethod::centroid) distances_.resize(order_.size());
     if (method != OrderMethod::mpvo && method != OrderMethod::exact) return;
+    if (!overlaps.empty()) overlapping_.resize(order_.size());
+    for (const std::int32_t tet : tets_of(overlaps)) overlapping_[tet] = 1;
     const Stage building("order graph");
     const Convexity shape = convexity(mesh);
     graph_ = std::make_unique<OrderGraph>(
@@ -65,26 +67,34 @@ VisibilityOrder::VisibilityOrder(const TetMesh& mesh, OrderMethod method,
 }
 
 DrawOrder<std::int32_t> VisibilityOrder::sort_pixels(const View& view,
-                                                     const std::function<void()>& meanwhile) {
-    const auto tets = sort(eye_of(view), meanwhile, false);
-    if (!graph_ || farthest_first_ || report_.cycles == 0) return {tets, {}};
-    solve_rings(view);
+                                                     const std::function<void()>& meanwhile,
+                                                     bool overlapping_rings) {
+    const bool breaks_all = !overlapping_rings && overlapping_.empty();
+    const auto breaks = [&](std::span<const std::int32_t> ring) {
+        const auto overlaps = [&](std::int32_t tet) { return overlapping_[tet] != 0; };
+        return breaks_all || (!overlapping_rings && std::ranges::any_of(ring, overlaps));
+    };
+    const auto tets = sort(eye_of(view), meanwhile, std::cref(breaks));  // takes no memory
+    if (!graph_ || farthest_first_ || report_.cycles == 0 || breaks_all) return {tets, {}};
+    solve_rings(view, std::cref(breaks));
     return rings_->order();
 }
 
 std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
                                                     const std::function<void()>& meanwhile,
-                                                    bool break_rings) {
+                                                    const RingChoice& breaks) {
     report_ = {};
     cycles_.forget();
     if (graph_) {
         graph_->look_from(eye);
         parallel_invoke(
             [&] {
-                if (!farthest_first_) return sort_topologically(break_rings);
+                if (!farthest_first_) return sort_topologically(breaks);
                 const std::int64_t broken = farthest_first_->sort(*graph_, order_);
                 if (broken == 0) return;
-                find_cycles(false);  // only for the report: FarthestFirst has made the order
+                find_cycles([](auto) {
+                    return false;
+                });  // only for the report: FarthestFirst has made the order
                 report_.broken = broken;
                 report_.broken_area = 0;
             },
@@ -97,7 +107,7 @@ std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
 }
 
 // Splits order_ into runs of tets of one ring, and of tets in no ring (sort_topologically()).
-void VisibilityOrder::solve_rings(const View& view) {
+void VisibilityOrder::solve_rings(const View& view, const RingChoice& broken) {
     const Stage solving("rings");
     rings_.emplace(*graph_, view,
                    near_share * glm::distance(mesh_.bounds().min, mesh_.bounds().max));
@@ -107,15 +117,14 @@ void VisibilityOrder::solve_rings(const View& view) {
         std::size_t end = first + 1;
         while (end < tets.size() && cycles_.component(tets[end]) == ring) ++end;
         const auto consecutive = tets.subspan(first, end - first);
-        if (ring == OrderCycles::none) {
+        if (ring == OrderCycles::none || broken(consecutive)) {
             rings_->add(consecutive);
         } else {
             rings_->add_ring(consecutive, cycles_);
         }
         first = end;
     }
-    report_.broken = rings_->overlapping_pairs();  // none are found if overlaps are ordered
-    report_.broken_area = 0;
+    report_.broken += rings_->overlapping_pairs();  // none are found if overlaps are ordered
 }
 
 // Sorts by distance from the eye: better than depth along the view (VTK's vtkCellCenterDepthSort).
@@ -133,10 +142,10 @@ void VisibilityOrder::sort_centroids(const Eye& eye) {
                    [](const Distance& entry) { return entry.tet; });
 }
 
-void VisibilityOrder::sort_topologically(bool break_rings) {
+void VisibilityOrder::sort_topologically(const RingChoice& breaks) {
     const std::size_t drawn = draw_free();
     if (drawn == order_.size()) return;
-    find_cycles(break_rings);
+    find_cycles(breaks);
     const auto rest = cycles_.sequence();
     std::copy(rest.begin(), rest.end(), order_.begin() + static_cast<std::ptrdiff_t>(drawn));
 }
@@ -167,8 +176,8 @@ std::size_t VisibilityOrder::draw_free() {
     return drawn;
 }
 
-void VisibilityOrder::find_cycles(bool break_rings) {
-    const OrderCycles::Found found = cycles_.order(*graph_, break_rings);
+void VisibilityOrder::find_cycles(const RingChoice& breaks) {
+    const OrderCycles::Found found = cycles_.order(*graph_, breaks);
     report_.cycles = found.cycles;
     report_.cyclic_tets = found.cyclic_tets;
     report_.broken = found.broken.edges;

@@ -41,20 +41,24 @@ struct OrderReport {
 // The order depends on mesh, method and eye alone. The mesh must outlive this object.
 class VisibilityOrder {
   public:
-    // `overlaps`: the mesh's overlapping_pairs(), which `exact` then orders by entry (EntryRule) in
-    // all pixels.
+    // `overlaps`: the mesh's TetOverlaps::pairs, which `exact` then orders by entry (EntryRule) in
+    // all pixels; empty if there are none, or if they are not known.
     VisibilityOrder(const TetMesh& mesh, OrderMethod method,
                     std::span<const TetPair> overlaps = {});
 
-    // Returns all tets back to front, for an eye anywhere, until the next call. Calls `meanwhile`
-    // once, beside work on one core. `break_rings`: orders tets of rings, too, as well as possible.
+    // Returns all tets back to front, for an eye anywhere, until the next call; those of rings as
+    // well as possible. Calls `meanwhile` once, beside work on one core.
     std::span<const std::int32_t> sort(
-        const Eye& eye, const std::function<void()>& meanwhile = [] {}, bool break_rings = true);
+        const Eye& eye, const std::function<void()>& meanwhile = [] {}) {
+        return sort(eye, meanwhile, OrderCycles::all);
+    }
     // Returns the tets for a view. Rings' tets are listed several times (RingOrder), to be right in
     // all pixels; if overlaps are not ordered, in those on whose ray no tets overlap. Holds for
-    // `exact`, and for `mpvo` of a convex mesh.
+    // `exact`, and for `mpvo` of a convex mesh. `overlapping_rings`: false if the tets of rings
+    // with overlaps, or of all rings if overlaps are not known, are listed once, as by sort().
     DrawOrder<std::int32_t> sort_pixels(
-        const View& view, const std::function<void()>& meanwhile = [] {});
+        const View& view, const std::function<void()>& meanwhile = [] {},
+        bool overlapping_rings = true);
     std::span<const std::int32_t> order() const { return order_; }  // result of the last sort()
 
     OrderMethod method() const { return method_; }
@@ -67,15 +71,20 @@ class VisibilityOrder {
         double distance;
         std::int32_t tet;
     };
+    using RingChoice = OrderCycles::RingChoice;
+    // `breaks`: tells which rings' tets are ordered as well as possible; others are in any order.
+    std::span<const std::int32_t> sort(const Eye& eye, const std::function<void()>& meanwhile,
+                                       const RingChoice& breaks);
     void sort_centroids(const Eye& eye);
-    void sort_topologically(bool break_rings);
+    void sort_topologically(const RingChoice& breaks);
     std::size_t draw_free();
-    void find_cycles(bool break_rings);
-    void solve_rings(const View& view);
+    void find_cycles(const RingChoice& breaks);
+    void solve_rings(const View& view, const RingChoice& broken);
 
     const TetMesh& mesh_;
     OrderMethod method_;
     std::vector<std::int32_t> order_;
+    std::vector<char> overlapping_;  // 1 for each tet that overlaps another; empty if there is none
     std::unique_ptr<OrderGraph> graph_;              // mpvo, exact
     std::unique_ptr<FarthestFirst> farthest_first_;  // mpvo of a nonconvex mesh
     std::vector<Distance> distances_;                // centroid

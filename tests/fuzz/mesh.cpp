@@ -33,11 +33,10 @@ void check_sizes(const MeshData& data) {
 
 void check_orders(const TetMesh& mesh, const glm::dvec3& outside) {
     const glm::dvec3 inside = mesh.points()[static_cast<std::size_t>(mesh.tets()[0][0])];
-    const auto overlaps = overlapping_pairs(mesh, 50'000);
+    const TetOverlaps overlaps = find_overlaps(mesh, 50'000);
     for (const OrderMethod method :
          {OrderMethod::mpvo, OrderMethod::exact, OrderMethod::centroid, OrderMethod::none}) {
-        VisibilityOrder order(mesh, method,
-                              overlaps ? std::span(*overlaps) : std::span<const TetPair>());
+        VisibilityOrder order(mesh, method, overlaps.pairs);
         for (const Eye& eye : {Eye{outside, false}, Eye{inside, false}, Eye{{0, 0, 1}, true}}) {
             const auto sorted = order.sort(eye);
             const std::set<std::int32_t> tets(sorted.begin(), sorted.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh/mesh_shape.h"
+#include "mesh/tet_overlaps.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,9 @@ namespace lamina {
 namespace {
 
 std::int64_t overlapping(const MeshData& mesh) {
-    return count_overlapping_tets(TetMesh(mesh, "mesh"));
+    const TetOverlaps found = find_overlaps(TetMesh(mesh, "mesh"), 10'000);
+    EXPECT_TRUE(found.complete);
+    return std::ssize(tets_of(found.pairs));
 }
 
 MeshData tet_at(const glm::dvec3& place, double size) {

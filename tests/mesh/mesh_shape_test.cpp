@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <glm/glm.hpp>
+#include <numbers>
 
+#include "mesh/tet_overlaps.h"
 #include "support/carved_mesh.h"
 #include "support/delaunay_mesh.h"
 #include "support/split_box.h"
@@ -46,6 +48,71 @@ TEST(MeshShape, RoundedBoxesAreConvexWithinRounding) {
     dented = box({2, 2, 2});
     dented.points[4].z += 1e-14;
     EXPECT_EQ(convexity_of(dented), Convexity::within_rounding);
+}
+
+// Returns the tets between a point above, one below, and the sides of a star with n points that is
+// drawn `around` times around its middle: a pentagram for 5 and 2. For 1, it is convex.
+MeshData bipyramid(int n, int around) {
+    MeshData mesh;
+    mesh.points = {{0, 0, 1}, {0, 0, -1}};
+    for (int i = 0; i < n; ++i) {
+        const double angle = 2 * std::numbers::pi * around * i / n;
+        mesh.points.emplace_back(std::cos(angle), std::sin(angle), 0);
+        mesh.tets.push_back({0, 1, 2 + i, 2 + (i + 1) % n});
+    }
+    return mesh;
+}
+
+TEST(MeshShape, SurfacesThatWindTwiceAreNotConvex) {
+    EXPECT_EQ(convexity_of(bipyramid(5, 1)), Convexity::exact);
+    for (const auto& [n, around] : {std::pair(5, 2), std::pair(7, 2), std::pair(7, 3)}) {
+        const TetMesh star(bipyramid(n, around), "star");
+        EXPECT_EQ(star.findings().boundary_faces, 2 * n);
+        EXPECT_EQ(star.findings().folded_faces, 0);
+        EXPECT_EQ(convexity(star), Convexity::none);
+        EXPECT_FALSE(find_overlaps(star, 100).pairs.empty());
+        // The same around another axis.
+        MeshData turned = bipyramid(n, around);
+        for (glm::dvec3& point : turned.points) point = {point.z, -point.y, point.x};
+        EXPECT_EQ(convexity_of(turned), Convexity::none);
+    }
+}
+
+// Twelve pentagons that cross (Poinsot): each has a point of an icosahedron's five neighbours of a
+// point as its corners. All edges are convex; it is no sphere, and its inside is covered thrice.
+TEST(MeshShape, AGreatDodecahedronIsNotConvex) {
+    MeshData mesh;
+    const double golden = .5 * (1 + std::sqrt(5.));
+    for (const double a : {-1., 1.}) {
+        for (const double b : {-golden, golden})
+            mesh.points.insert(mesh.points.end(), {{0, a, b}, {a, b, 0}, {b, 0, a}});
+    }
+    const auto points = mesh.points;
+    const auto middle = static_cast<std::int32_t>(points.size());
+    mesh.points.emplace_back(0, 0, 0);
+    for (std::int32_t top = 0; top < middle; ++top) {
+        glm::dvec3 sum(0);
+        std::vector<std::int32_t> around;
+        for (std::int32_t i = 0; i < middle; ++i) {
+            if (std::abs(glm::distance(points[i], points[top]) - 2) > .1) continue;
+            around.push_back(i);
+            sum += points[i];
+        }
+        ASSERT_EQ(around.size(), 5);
+        const auto face = static_cast<std::int32_t>(mesh.points.size());
+        mesh.points.push_back(.2 * sum);
+        for (const std::int32_t a : around) {
+            for (const std::int32_t b : around)
+                if (a < b && glm::distance(points[a], points[b]) < 2.1)
+                    mesh.tets.push_back({middle, face, a, b});
+        }
+    }
+    ASSERT_EQ(mesh.tets.size(), 60);
+    const TetMesh star(mesh, "star");
+    EXPECT_EQ(star.findings().boundary_faces, 60);
+    EXPECT_EQ(star.findings().folded_faces, 0);
+    EXPECT_EQ(convexity(star), Convexity::none);
+    EXPECT_FALSE(find_overlaps(star, 2000).pairs.empty());
 }
 
 TEST(MeshShape, NonconvexMeshesAreRecognized) {

@@ -11,6 +11,7 @@
 #include "mesh/point_table.h"
 #include "mesh/ray_walk.h"
 #include "mesh/tet_mesh.h"
+#include "mesh/tet_overlaps.h"
 #include "support/carved_mesh.h"
 #include "support/expect_error.h"
 #include "support/point_copies.h"
@@ -54,7 +55,7 @@ TEST(PointCopies, DoNotChangeNeighborsAndFindings) {
             EXPECT_EQ(split.findings().folded_faces, 0);
             EXPECT_EQ(split.findings().inverted, 0);
             EXPECT_EQ(convexity(split), convexity(shared));
-            EXPECT_EQ(count_overlapping_tets(split), 0);
+            EXPECT_TRUE(find_overlaps(split, 10).pairs.empty());
             EXPECT_EQ(edge_lengths(split).ratio(), edge_lengths(shared).ratio());
         }
     }
@@ -99,7 +100,7 @@ TEST(PointCopies, CountAsOnePointInAllFindings) {
     EXPECT_EQ(folded.findings().folded_faces, 1);
     EXPECT_EQ(folded.findings().boundary_faces, 6);
     EXPECT_EQ(folded.open_faces().size(), 8u);
-    EXPECT_EQ(count_overlapping_tets(folded), 2);
+    EXPECT_EQ(find_overlaps(folded, 10).pairs, (std::vector<TetPair>{{0, 1}}));
     data.tets.push_back({0, 2, 1, 5});
     const TetMesh three(split(), "three");
     EXPECT_EQ(three.findings().nonmanifold_faces, 1);

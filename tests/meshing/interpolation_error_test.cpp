@@ -128,7 +128,7 @@ TEST(CellPieces, BernsteinFormIsTheDifference) {
             add(16 + i, 6 * w[a] * w[b] * w[c]);
         }
         for (std::size_t i = 0; i < 6; ++i) {
-            const auto& [a, b] = BernsteinCubic::edges[i];
+            const auto& [a, b] = tet_edges[i];
             add(4 + 2 * i, 3 * w[a] * w[a] * w[b]);
             add(5 + 2 * i, 3 * w[a] * w[b] * w[b]);
         }
