@@ -17,14 +17,16 @@ enum class ErrorKind {
     unknown,  // nothing was measured for a setting of the scene, or tets overlap and have no order
     derived,  // a bound: no pixel is worse
     trials,   // measured on rays of the view that were also traced, or drawn with finer settings
-    sampled   // measured on rays of the view and on tets that are likely to have the largest errors
+    sampled,  // measured on rays of the view and on tets that are likely to have the largest errors
+    estimated  // by the rule that cuts lit rays: each piece keeps its share of max_error, but
+               // nothing limits how many faint ones a ray has
 };
-// Returns the word in statistics: "unknown", "derived", "trials" or "sampled".
+// Returns the word in statistics: "unknown", "derived", "trials", "sampled" or "estimated".
 LAMINA_API const char* name_of(ErrorKind kind);
 
 // Largest error of any pixel and channel of a picture against the truth, in 1/255. Only a derived
 // figure is a bound. Other figures are exceeded in at most one of 1000 pictures, and then at most
-// 1.5 times (tools/fuzz_scenes tests that).
+// 1.5 times (tools/fuzz_scenes tests that); noise under strong light exceeds estimates more often.
 struct ErrorFigure {
     ErrorKind kind = ErrorKind::unknown;
     double value = 0;       // 0 if unknown
@@ -41,7 +43,8 @@ struct ErrorFigure {
 };
 
 // Returns a text: "at most 0.05 / 255", "0.9 / 255 by trials on 1024 rays", "0.06 / 255, sampled on
-// 1024 rays", or "unknown". "; along ramps at most 9.5 / 255" follows if there is such a bound.
+// 1024 rays", "0.8 / 255, estimated", or "unknown". "; along ramps at most 9.5 / 255" follows if
+// there is such a bound.
 LAMINA_API std::string text_of(const ErrorFigure& error);
 
 // Summary of the plan by which a picture is drawn.

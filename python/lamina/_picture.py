@@ -75,7 +75,7 @@ class Picture:
     def error_kind(self) -> str:
         """Evidence for ``error``. ``"derived"``: a bound, no pixel is worse. ``"trials"``: found with the number of slabs
         that was chosen, on rays of the view. ``"sampled"``: found on rays of the view and tets of the mesh.
-        ``"estimated"``: by the tracer, of a traced picture. ``"unknown"``."""
+        ``"estimated"``: by the rule that cuts lit rays into pieces, or, of a traced picture, by the tracer. ``"unknown"``."""
         return self._drawn.error_kind
 
     @property

@@ -179,7 +179,7 @@ void explain_projection(const ProjectPlan& project, const MeshFacts& facts, bool
 }  // namespace
 
 const char* name_of(ErrorKind kind) {
-    return word_of(kind, {"unknown", "derived", "trials", "sampled"});
+    return word_of(kind, {"unknown", "derived", "trials", "sampled", "estimated"});
 }
 
 std::string text_of(const ErrorFigure& error) {
@@ -192,6 +192,8 @@ std::string text_of(const ErrorFigure& error) {
             return fmt::format("{:.3g} / 255 by trials on {} rays", error.value, error.rays);
         case ErrorKind::sampled:
             return fmt::format("{:.3g} / 255, sampled on {} rays", error.value, error.rays);
+        case ErrorKind::estimated:
+            return fmt::format("{:.3g} / 255, estimated{}", error.value, text_along_ramps(error));
     }
     unreachable_enum();
 }

@@ -229,7 +229,9 @@ ErrorFigure SlicePlan::error() const {
     if (bounded) {
         const bool leaves_out = ramp_error > 0 && !nothing_visible;
         const double along_ramps = found_error() + *rounding_bound + ramp_error;
-        return {ErrorKind::derived, value, 0, leaves_out ? along_ramps : 0};
+        const bool lit = light_error > 0 && !nothing_visible;
+        return {lit ? ErrorKind::estimated : ErrorKind::derived, value, 0,
+                leaves_out ? along_ramps : 0};
     }
     return {ErrorKind::trials, value, slab_trial->rays};
 }

@@ -91,6 +91,20 @@ TEST(SurfaceError, CountsJumpsOfColor) {
     EXPECT_GT(claim_at(1e-4).value, 255 * 20 * 1e-4);  // the box is 20 deep
 }
 
+// The rule that cuts lit rays limits what each piece errs by, but not how many faint pieces there
+// are, so its figure is no bound. Without light it is one.
+TEST(SurfaceError, OfLitRaysIsAnEstimate) {
+    const Volume volume = ramp(0, .1);
+    Scene scene = along_surface(
+        3, TransferFunction::linear({knot(0, {1, 0, 0}, .1), knot(1, {0, 0, 1}, .4)}));
+    EXPECT_EQ(claimed(volume, scene).kind, ErrorKind::derived);
+    Lighting lighting;
+    lighting.smallest_gradient = .01;
+    scene.lighting = lighting;
+    EXPECT_EQ(claimed(volume, scene).kind, ErrorKind::estimated);
+    EXPECT_GT(claimed(volume, scene).value, .5 * scene.max_error);
+}
+
 // A block of the largest value, in whose faces rays run: the later side of a step at that value
 // shows in the block and in its faces, but a rounding beside them would not meet it.
 TEST(SurfaceError, CountsStepsAtTheEndsOfTheSamples) {

@@ -179,7 +179,7 @@ class Judge:
         claims = automatic and not any("max_error" in line for line in drawn.messages)
         self.verdict.doubted = automatic and not claims
         figure = drawn.stats["error"]
-        if figure["kind"] == "derived":
+        if figure["kind"] in ("derived", "estimated"):
             self.check("bound", error, figure["value"] / 255 + 1e-7, f" by {plan['classification']} in {plan['target']}")
         elif figure["kind"] == "trials":
             self.check("figure", error, figure["value"] / 255 + 1e-7,
