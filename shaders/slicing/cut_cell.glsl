@@ -123,6 +123,7 @@ void advance(NextPiece next_piece, CellScalar scalar, bool whole, float extent, 
 struct CellPart {
     CellScalar scalar;
     float world_length;
+    float depth;  // set by add_whole_part(): the optical depth if the part lies in one interval, else 0
 };
 
 // Adds the next piece of a part, or its beginning if it is too deep, and moves the place behind
@@ -158,12 +159,12 @@ bool add_whole_part(inout CellPart cell, inout RaySum sum) {
     Interval interval = interval_at(lowest);
     LinearPart part = linear_part(interval, cell.scalar.cubic, cell.world_length);
     bool crosses = range.y > interval.right_end;
-    float depth = crosses ? 0.0 : depth_of(part);
+    cell.depth = crosses ? 0.0 : depth_of(part);
     bool hard = crosses && range.y > interval.shown_beyond;
 #ifndef SINGLE_COLOR
-    hard = hard || depth > largest_part_depth;
+    hard = hard || cell.depth > largest_part_depth;
 #endif
-    if (!hard) add_linear_part(interval, part, depth, sum);
+    if (!hard) add_linear_part(interval, part, cell.depth, sum);
     return !hard;
 }
 #endif

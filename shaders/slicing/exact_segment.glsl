@@ -7,7 +7,8 @@
 // A GPU and llvmpipe draw a group of 8 to 64 rays in step: all wait while one of them cuts a cell,
 // which takes several times as long as a cell that is not cut. So a cell waits to be cut, and what
 // lies behind it is added up apart, until a ray of the group finds a second one. Then all that wait
-// are cut at once. A ray's sums do not depend on when that is.
+// are cut at once. What a ray adds up does not depend on when that is. CUTS_ALONE: cells are cut at
+// once.
 #include "slicing/cell_cubic.glsl"
 #include "slicing/cell_ray.glsl"
 #include "slicing/cut_cell.glsl"
@@ -20,7 +21,7 @@ uniform float opaque_depth;
 
 // Tells whether a condition holds for a ray of the group. On drivers that cannot tell, each ray
 // cuts its own cells.
-#if defined(GL_ARB_shader_group_vote) && !defined(CUTS_ALONE)
+#ifdef GL_ARB_shader_group_vote
 #define any_of_group(condition) anyInvocationARB(condition)
 #else
 #define any_of_group(condition) (condition)
@@ -44,52 +45,68 @@ void integrate_cells(Ray ray, REAL2 depths, inout RaySum sum) {
 #ifdef LIGHTS
     part.to_eye = -normalize(vec3(ray.direction) * spacing);
 #endif
-    // `sum` ends in front of the waiting part or, once that is cut, behind it.
+    // `sum` ends in front of the waiting part or, once that is cut, behind it. `behind` is what
+    // follows. `before` are the depth and the transmittance in front of `behind`, as far as they are
+    // known without a cut.
     CellPart waiting = part;
     bool waits = false;
-    RaySum before = sum, behind = empty_sum;  // in front of the waiting part, and behind it
-    while (left > REAL(0.0)) {
+    RaySum behind = empty_sum;
+    vec2 before = vec2(sum.depth, sum.transmittance);
+    bool goes = left > REAL(0.0);
+    while (goes || waits) {
+        bool hard = false;
 #ifdef OCCUPIED_ONLY
-        ivec3 brick = brick_of(at.cell);
-        int reach = distance_to_shown(brick);
-        while (reach > 0 && left > REAL(0.0)) {
-            leap(ray, cells, brick, reach, depths.y, at, left);
-            brick = brick_of(at.cell);
-            reach = distance_to_shown(brick);
+        if (goes) {
+            ivec3 brick = brick_of(at.cell);
+            int reach = distance_to_shown(brick);
+            while (reach > 0 && left > REAL(0.0)) {
+                leap(ray, cells, brick, reach, depths.y, at, left);
+                brick = brick_of(at.cell);
+                reach = distance_to_shown(brick);
+            }
+            goes = left > REAL(0.0);
         }
-        if (!(left > REAL(0.0))) break;
 #endif
-        vec3 to_faces = (vec3(cells.forward) - at.place) * cells.inverse;
-        float way = min(min(to_faces.x, to_faces.y), min(to_faces.z, float(left)));
-        vec3 change = way * cells.slope;
-        // Roundings may leave a rest of the way behind the box's last cell.
-        ivec3 cell = nearest_cell(at.cell);
-        bool transparent;
-        part.scalar = cell_scalar(cell, at.place + vec3(at.cell - cell), change, transparent);
-        part.world_length = transparent ? 0.0 : way * float(ray.length_per_depth);
+        if (goes) {
+            vec3 to_faces = (vec3(cells.forward) - at.place) * cells.inverse;
+            float way = min(min(to_faces.x, to_faces.y), min(to_faces.z, float(left)));
+            vec3 change = way * cells.slope;
+            // Roundings may leave a rest of the way behind the box's last cell.
+            ivec3 cell = nearest_cell(at.cell);
+            bool transparent;
+            part.scalar = cell_scalar(cell, at.place + vec3(at.cell - cell), change, transparent);
+            part.world_length = transparent ? 0.0 : way * float(ray.length_per_depth);
 #ifdef LIGHTS
-        part.cell = at.cell;
-        part.place = at.place;
-        part.change = change;
-        part.transmittance = before.transmittance * behind.transmittance;
+            part.cell = at.cell;
+            part.place = at.place;
+            part.change = change;
+            part.transmittance = before.y * behind.transmittance;
 #endif
-        bool hard = !add_whole_part(part, behind);
-        if (any_of_group(hard && waits)) cut(waiting, waits, sum);
+            hard = !add_whole_part(part, behind);
+            bvec3 leaves = lessThanEqual(to_faces, vec3(way));
+            at.place = mix(clamp(at.place + change, 0.0, 1.0), vec3(not(cells.forward)), leaves);
+            at.cell += ivec3(leaves) * (2 * ivec3(cells.forward) - 1);
+            left -= REAL(way);
+        }
+#ifndef CUTS_ALONE
+        bool second = hard && waits;
+        bool some_second = any_of_group(second), some_goes = any_of_group(goes);
+        if (second || some_second || !some_goes) cut(waiting, waits, sum);
+#endif
         if (hard) {
             put_behind(behind, sum);
-            before = sum;
+            before = vec2(sum.depth + part.depth, sum.transmittance * exp(-part.depth));
             behind = empty_sum;
             waiting = part;
             waits = true;
         }
-#ifdef ENDS_EARLY
-        if (before.depth + behind.depth >= opaque_depth) break;
+#ifdef CUTS_ALONE
+        cut(waiting, waits, sum);
 #endif
-        bvec3 leaves = lessThanEqual(to_faces, vec3(way));
-        at.place = mix(clamp(at.place + change, 0.0, 1.0), vec3(not(cells.forward)), leaves);
-        at.cell += ivec3(leaves) * (2 * ivec3(cells.forward) - 1);
-        left -= REAL(way);
+        goes = goes && left > REAL(0.0);
+#ifdef ENDS_EARLY
+        goes = goes && before.x + behind.depth < opaque_depth;
+#endif
     }
-    cut(waiting, waits, sum);
     put_behind(behind, sum);
 }

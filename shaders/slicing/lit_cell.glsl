@@ -10,8 +10,9 @@ struct CellPart {
     ivec3 cell;
     vec3 place, change;
     vec3 to_eye;          // direction along the grid's axes
-    float transmittance;  // at least that of all in front of the part
-    float longest_piece;  // length of the first piece if the part is cut, as a share of it
+    float transmittance;  // of what is in front; at least, because crossings that wait do not count
+    float depth;          // set by add_whole_part(): the optical depth if it lies in one interval, else 0
+    float longest_piece;  // set by it, too: length of the first piece if it is cut, as a share of the part
 };
 
 // Lengths of the pieces of a part, as shares of it. `longest` doubles after two pieces of full
@@ -64,16 +65,16 @@ void add_cut_part(CellPart cell, inout RaySum sum) {
 }
 
 // Adds light to a part in one interval, and then the part to the sum if it needs no cut.
-bool add_lit_part(Interval interval, LinearPart part, float depth, inout CellPart cell, inout RaySum sum) {
+bool add_lit_part(Interval interval, LinearPart part, inout CellPart cell, inout RaySum sum) {
     CellGradient gradient = cell_gradient(cell.cell, cell.place, cell.change);
-    float opacity = opacity_from_depth(depth);
-    vec3 color = color_of(interval, part, depth, opacity);
-    float bend = add_light(gradient, cell.to_eye, interval, part, 0.0, 1.0, depth, opacity, color);
+    float opacity = opacity_from_depth(cell.depth);
+    vec3 color = color_of(interval, part, cell.depth, opacity);
+    float bend = add_light(gradient, cell.to_eye, interval, part, 0.0, 1.0, cell.depth, opacity, color);
     if (bends(bend, cell.transmittance * opacity)) {
         cell.longest_piece = longest_piece(bend);
         return false;
     }
-    sum.depth += depth;
+    sum.depth += cell.depth;
     composite(color, opacity, sum);
     return true;
 }
@@ -88,14 +89,14 @@ bool add_whole_part(inout CellPart cell, inout RaySum sum) {
     Interval interval = interval_at(lowest);
     LinearPart part = linear_part(interval, cell.scalar.cubic, cell.world_length);
     bool crosses = range.y > interval.right_end;
-    float depth = crosses ? 0.0 : depth_of(part);
-    bool hard = crosses && range.y > interval.shown_beyond || depth > largest_part_depth;
+    cell.depth = crosses ? 0.0 : depth_of(part);
     cell.longest_piece = 1.0;
-    bool shown = !hard && depth > 0.0;
+    bool hard = crosses && range.y > interval.shown_beyond || cell.depth > largest_part_depth;
+    bool shown = !hard && cell.depth > 0.0;
     // This is a loop and not an if, because software rasterisers compute both sides of branches.
     while (shown) {
         shown = false;
-        hard = !add_lit_part(interval, part, depth, cell, sum);
+        hard = !add_lit_part(interval, part, cell, sum);
     }
     return !hard;
 }

@@ -20,8 +20,8 @@ struct RayDispatch {
     // True: tiles of volumes are drawn in the order of what they took in the last frame, the
     // longest first (slicing/gl_march.h). Whether that gains more than it takes is a guess, too.
     bool sorted = false;
-    // True: a ray cuts a cell at once, and does not wait until its group cuts some
-    // (shaders/slicing/exact_segment.glsl).
+    // True: a ray cuts a cell at once, and does not wait until its group cuts some; also in
+    // fragment shaders (shaders/slicing/exact_segment.glsl).
     bool alone = false;
 
     friend bool operator==(const RayDispatch&, const RayDispatch&) = default;

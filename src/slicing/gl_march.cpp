@@ -22,7 +22,6 @@ void set_rays(gl::Defines& defines, const RayDispatch& rays) {
     defines.set("GROUP", rays.group);
     if (rays.queue) defines.set("QUEUE", 1);
     if (rays.sorted) defines.set("SORTED", 1);
-    if (rays.alone) defines.set("CUTS_ALONE", 1);
 }
 
 // The upper left pixels of drawn tiles lie in different tiles of the whole picture, even if they

@@ -74,6 +74,7 @@ gl::Defines segment_defines(const SlicePlan& plan, int intervals, int table_node
     if (plan.rays.blocks) defines.set("TABLE_BLOCKS", 1);
     if (plan.integrates_cells()) {
         defines.set("EXACT", 1);
+        if (plan.rays.alone) defines.set("CUTS_ALONE", 1);
         if (steps) defines.set("STEPS", 1);
         if (plan.float_texture) defines.set("FLOAT_SAMPLES", 1);
         if (plan.words) defines.set("SAMPLE_WORDS", 1);

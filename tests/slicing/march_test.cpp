@@ -174,21 +174,35 @@ TEST_P(MarchTest, TilesSortedByCostDrawTheSame) {
     }
 }
 
-// Hard cells stand in many places of a wave, so that rays of a group meet their first, second, ...
-// one in different steps. Whose turn it is to cut must not change a bit, also if light is drawn.
+// Cells to cut lie in many places of a wave, so that rays of a group meet their first, second, ...
+// one in different steps. Who cuts with whom must not change a bit: unlit and lit, in one dispatch
+// and in several, with rays that end early, and in fragment shaders.
 TEST_P(MarchTest, RaysThatCutAloneDrawTheSame) {
     if (!gl::has_extension("GL_ARB_shader_group_vote")) GTEST_SKIP() << "no votes in shaders";
-    Capabilities alone = capabilities(), small = capabilities();
+    Capabilities alone = capabilities();
     alone.rays.alone = true;
-    small.rays.group = 32;
-    Scene scene = scene_of(64, many_points());
     Lighting lighting;
     lighting.smallest_gradient = .01;
+    Scene scene = scene_of(64, many_points());
+    scene.slice.classification = Classification::exact;
     for (const bool lit : {false, true}) {
         if (lit) scene.lighting = lighting;
-        const Image expected = render(volume_, scene, capabilities());
-        EXPECT_EQ(render(volume_, scene, alone).rgba, expected.rgba) << lit;
-        EXPECT_EQ(render(volume_, scene, small).rgba, expected.rgba) << lit;
+        const Facts facts = measure(scene, volume_, measure_bricks(volume_));
+        for (const Target target : {Target::float32, Target::emulated, Target::fixed8}) {
+            scene.target = target;
+            for (const int slabs : {64, 5}) {
+                const auto drawn = [&](const Capabilities& each) {
+                    Plan plan = make_plan(scene, facts, each, {});
+                    plan.slice.marched_slabs = slabs;
+                    GlSliceRenderer renderer(volume_, *scene.transfer_function, facts, plan.slice,
+                                             each, scene.width, scene.height);
+                    renderer.draw(View(*scene.camera, scene.width, scene.height));
+                    return renderer.read().rgba;
+                };
+                EXPECT_EQ(drawn(alone), drawn(capabilities()))
+                    << lit << " " << name_of(target) << " " << slabs;
+            }
+        }
     }
 }
 
