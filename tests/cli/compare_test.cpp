@@ -204,9 +204,12 @@ TEST_F(Compare, WarnsOfDifferentCameras) {
     write("other.exr", R"({"version": 1, "camera": {"eye": [0, 0, 6]}})");
     write("open.exr", R"({"version": 1})");
     write("damaged.exr", "{");
+    const std::string deep(100'000, '[');  // more than the stack holds
+    write("deep.exr", R"({"camera": {"eye": )" + deep + std::string(deep.size(), ']') + "}}");
     const std::string warning = "were drawn with different cameras";
     EXPECT_NE(compare("one.exr", "other.exr").err.find(warning), std::string::npos);
-    for (const char* const fine : {"same.exr", "open.exr", "damaged.exr", "small.exr"}) {
+    for (const char* const fine :
+         {"same.exr", "open.exr", "damaged.exr", "deep.exr", "small.exr"}) {
         const ProgramResult result = compare("one.exr", fine);
         EXPECT_EQ(result.exit_code, 0) << fine;
         EXPECT_EQ(result.err, "") << fine;

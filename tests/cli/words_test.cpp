@@ -192,6 +192,7 @@ TEST_F(WordsRun, AnOptionThatFollowsIsNoValue) {
     expect({"--background", "--title", "T"}, "--background: found the option --title, expected");
     expect({"--set", "--quiet"}, "--set: found the option --quiet, expected a value");
     EXPECT_EQ(scene({"--title=--legend"})["image"]["annotations"]["title"], "--legend");
+    EXPECT_EQ(scene({"--title", "--a title"})["image"]["annotations"]["title"], "--a title");
     EXPECT_EQ(scene({"--title", "-5 K"})["image"]["annotations"]["title"], "-5 K");
     EXPECT_EQ(scene({"--azimuth", "-30", "--up", "-x"}).count("camera"), 1u);
 }

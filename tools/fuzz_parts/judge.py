@@ -180,7 +180,8 @@ class Judge:
         self.verdict.doubted = automatic and not claims
         figure = drawn.stats["error"]
         if figure["kind"] in ("derived", "estimated"):
-            self.check("bound", error, figure["value"] / 255 + 1e-7, f" by {plan['classification']} in {plan['target']}")
+            self.check("bound" if figure["kind"] == "derived" else "figure", error, figure["value"] / 255 + 1e-7,
+                       f" by {plan['classification']} in {plan['target']}")
         elif figure["kind"] == "trials":
             self.check("figure", error, figure["value"] / 255 + 1e-7,
                        f" by {plan['slabs']} slabs, {plan['classification']}, trials on {figure['rays']} rays")

@@ -66,9 +66,13 @@ nlohmann::json camera_of(const std::string& file) {
     if (std::filesystem::path(file).extension() != ".exr") return nullptr;
     const auto scene = attribute_of_exr(file, "scene");
     if (!scene) return nullptr;
-    const auto document = nlohmann::json::parse(*scene, nullptr, false);  // discarded if damaged
-    const auto found = document.is_object() ? document.find("camera") : document.end();
-    return found == document.end() || !found->is_object() ? nlohmann::json() : *found;
+    try {
+        const nlohmann::json document = parse_json(*scene);
+        const auto found = document.is_object() ? document.find("camera") : document.end();
+        return found == document.end() || !found->is_object() ? nlohmann::json() : *found;
+    } catch (const Error&) {
+        return nullptr;  // a damaged scene says nothing of the picture
+    }
 }
 
 // Warns of pictures with different cameras: an automatic camera fits what shows, so that another
@@ -77,8 +81,7 @@ void warn_of_cameras(const CompareOptions& options) {
     const nlohmann::json a = camera_of(options.a), b = camera_of(options.b);
     if (a.is_null() || b.is_null() || a == b) return;
     say("{}, {}: were drawn with different cameras, so that edges differ; a scene with a camera, "
-        "as "
-        "lamina scene writes it, draws both with one",
+        "as lamina scene writes it, draws both with one",
         options.a, options.b);
 }
 

@@ -156,7 +156,13 @@ void fill_in_light(std::vector<char*>& arguments) {
 // Tells if a text looks like an option, not like a value: -30, -x, - and -1:2 are values.
 bool is_option(const CLI::App& verb, const std::string& text) {
     const std::string name = text.substr(0, text.find('='));
-    if (name.size() > 2 && name.starts_with("--")) return std::isalpha(name[2]) != 0;
+    if (name.size() > 2 && name.starts_with("--")) {
+        return std::isalpha(static_cast<unsigned char>(name[2])) != 0 &&
+               std::ranges::all_of(name, [](unsigned char letter) {
+                   return std::isalnum(letter) != 0 || letter == '-' || letter == '_' ||
+                          letter == '.';
+               });
+    }
     return name.starts_with("-") && verb.get_option_no_throw(name) != nullptr;
 }
 
@@ -221,12 +227,13 @@ std::string text_of_extra(const std::string& word, const CLI::App& verb) {
     const CLI::Option* const output = verb.get_option_no_throw("--output");
     if (output == nullptr) return word + ": not expected here";
     if (output->empty()) return fmt::format("{0}: not expected here, did you mean -o {0}?", word);
-    if (!names_data(word)) return word + ": not expected here";
+    const std::string from = std::filesystem::path(word).extension().string(),
+                      to = std::filesystem::path(output->as<std::string>()).extension().string();
+    if (!names_data(word) || from.empty() || to.empty()) return word + ": not expected here";
     return fmt::format(
-        "{}: not expected here: lamina {} takes one file at a time, as in for f in *{}; do lamina "
-        "{} \"$f\" -o \"${{f%.*}}{}\"; done",
-        word, verb.get_name(), std::filesystem::path(word).extension().string(), verb.get_name(),
-        std::filesystem::path(output->as<std::string>()).extension().string());
+        "{0}: not expected here: lamina {1} takes one file at a time, as in for f in *{2}; do "
+        "lamina {1} \"$f\" -o \"${{f%.*}}{3}\"; done",
+        word, verb.get_name(), from, to);
 }
 
 // Returns what is missing if it is an option or a file that a verb needs, with its help's first
