@@ -139,8 +139,8 @@ TEST(SurfaceRays, OfConstantTetsAreOnOneSide) {
 }
 
 // In a window much wider than a tet's range, roundings move its surface by far more than those of
-// places: here by 2^-22 * 2.1 / 1e-4 = .005, .125 pixels. The rays are askew to it by .001 of a
-// tet's length of 1, .025 pixels.
+// places: here by 2^-22 * 2.1 / 1e-4 = .005, .125 pixels. The rays are askew to it by .003 of the
+// length of its parts in tets, which is .3 to 1: by .02 to .075 pixels.
 TEST(SurfaceRays, AreFoundIfRoundingsOfAWideWindowMoveTheSurface) {
     SceneMesh mesh = ramp_box();
     for (double& value : mesh.scalar.values) value = 1 + 1e-4 * value;
@@ -150,7 +150,7 @@ TEST(SurfaceRays, AreFoundIfRoundingsOfAWideWindowMoveTheSurface) {
         1.3, TransferFunction::linear({knot(0, {1, 1, 1}, .1), knot(1.00013, {1, 1, 1}, .2),
                                        knot(1.00013, {1, 1, 1}, .6), knot(2, {1, 1, 1}, .9)}));
     scene.camera->height = .28;
-    scene.camera->eye.x += .005;
+    scene.camera->eye.x += .015;
     const double across = -std::expm1(-.4 * diagonal);
     EXPECT_NEAR(surface_error(mesh, scene), across, 1e-9);
     // Half a pixel is too far, and so is an angle of .1.
