@@ -55,6 +55,8 @@ constexpr double most_table_segments = 1 << 18;
 // Numbers of trial rays along both sides of a picture.
 struct RayGrid {
     int columns, rows;
+
+    friend bool operator==(const RayGrid&, const RayGrid&) = default;
 };
 
 RayGrid trial_grid(const View& view) {
@@ -111,10 +113,10 @@ std::vector<MeshFacts::Segment> segments_of(RayWalk& walk, const View& view, int
     return found;
 }
 
-// Returns the rays of find_view_rays() on a grid.
+// Returns the rays of find_view_rays() on a grid. `boundary`: of the open faces.
 std::vector<std::vector<MeshFacts::Segment>> rays_of_grid(const View& view, const SceneMesh& mesh,
+                                                          const FaceTree& boundary,
                                                           const RayGrid& grid) {
-    const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
     std::vector<std::vector<MeshFacts::Segment>> rays(static_cast<std::size_t>(grid.columns) *
                                                       static_cast<std::size_t>(grid.rows));
     const auto pixel = [](std::int64_t i, int count, int pixels) {
@@ -209,6 +211,9 @@ MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh) {
     const TetPieces pieces(*scene.transfer_function,
                            drawn_range(*scene.transfer_function, facts.range));
     measure_transfer_function(scene, mesh, pieces, facts);
+    auto tets = tets_with_surfaces(scene, mesh, facts);
+    if (!tets.empty())
+        facts.surface_tets = std::make_shared<const std::vector<std::int32_t>>(std::move(tets));
     return facts;
 }
 
@@ -251,10 +256,12 @@ void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
                            drawn_range(*scene.transfer_function, facts.range));
     const View view(*scene.camera, scene.width, scene.height);
     RayGrid grid = trial_grid(view);
-    facts.trial_rays = rays_of_grid(view, mesh, grid);
+    const FaceTree boundary(mesh.mesh, mesh.mesh.open_faces());
+    facts.trial_rays = rays_of_grid(view, mesh, boundary, grid);
     if (scene.project.table.is_given()) {
-        grid = finer_grid(view, grid, facts.trial_rays);
-        facts.trial_rays = rays_of_grid(view, mesh, grid);
+        const RayGrid finer = finer_grid(view, grid, facts.trial_rays);
+        if (finer != grid) facts.trial_rays = rays_of_grid(view, mesh, boundary, finer);
+        grid = finer;
     }
     facts.pixels_a_trial_ray = static_cast<double>(view.width) * view.height /
                                (static_cast<double>(grid.columns) * grid.rows);
@@ -279,7 +286,7 @@ void check_finite(const Scene& scene, const SceneMesh& mesh, const ScalarRange& 
 std::vector<std::vector<MeshFacts::Segment>> find_view_rays(const Scene& scene,
                                                             const SceneMesh& mesh) {
     const View view(*scene.camera, scene.width, scene.height);
-    return rays_of_grid(view, mesh, trial_grid(view));
+    return rays_of_grid(view, mesh, FaceTree(mesh.mesh, mesh.mesh.open_faces()), trial_grid(view));
 }
 
 }  // namespace lamina

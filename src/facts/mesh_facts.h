@@ -58,6 +58,8 @@ struct MeshFacts {
     // far_for_parts times its width (runs_beyond() in facts/drawn_range.h).
     ValueRange window;
     std::int64_t far_tets = 0;
+    // tets_with_surfaces() (facts/surface_rays.h); null if there are none.
+    std::shared_ptr<const std::vector<std::int32_t>> surface_tets;
     // Number of visible cell fragments, if all tets are cut at the function's points.
     std::int64_t parts = 0;
 

@@ -14,18 +14,17 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/parallel.h"
+#include "mesh/few_points.h"
 #include "optics/pieces.h"
+#include "optics/scalar_rounding.h"
 #include "scene/camera.h"
 
 namespace lamina {
 namespace {
-
-// Bound on the error of a scalar in float32, as a share of the window (equal to scalar_rounding in
-// plan/choices.h), and the width, in such roundings, up to which a ramp counts as a jump.
-constexpr double scalar_rounding = 0x1p-22, steep_width = 1024;
 
 // Changes of at most this share of full scale (.0026 / 255) are not looked for.
 constexpr double least_change = 1e-5;
@@ -36,9 +35,6 @@ constexpr double tie_distance = 1e-6;
 // Steps of the places that walks have, as a share of the mesh's diagonal (docs/numerics.md,
 // section 7), with a margin of 2.
 constexpr double place_step = 0x1p-29;
-// Pixels to which corners lie on a line in a first test, before the exact tolerance is known.
-constexpr double nearly_edge_on = 0.01;
-
 // The nearest depth, as a share of the diagonal, of what is looked at in perspective views.
 constexpr double nearest = 1e-6;
 
@@ -80,19 +76,66 @@ std::vector<Jump> jumps_of(const TransferFunction& transfer_function, const Valu
     return jumps;
 }
 
-// Up to six corners of a plane polygon, in any order.
-template <typename Point>
-class Corners {
+using Scalars = std::array<double, 4>;  // at a tet's corners
+
+Scalars scalars_of(const SceneMesh& mesh, std::int32_t tet) {
+    Scalars found{};
+    const Tet& corners = mesh.mesh.tets()[static_cast<std::size_t>(tet)];
+    for (std::size_t i = 0; i < 4; ++i)
+        found[i] = mesh.scalar.values[static_cast<std::size_t>(corners[i])];
+    return found;
+}
+
+bool are_finite(const Scalars& scalars) {
+    const auto [least, most] = std::ranges::minmax(scalars);
+    return std::isfinite(least + most);
+}
+
+// The surfaces in tets at which what a ray shows jumps, apart from the boundary of the mesh.
+class InnerSurfaces {
   public:
-    void add(const Point& point) { points_[count_++] = point; }
-    const Point* begin() const { return points_.data(); }
-    const Point* end() const { return points_.data() + count_; }
-    std::size_t size() const { return count_; }
+    InnerSurfaces(const Scene& scene, const SceneMesh& mesh, const MeshFacts& facts)
+        : mesh_(mesh),
+          some_without_value_(facts.non_finite > 0),
+          rounding_(scalar_rounding * (facts.window.hi - facts.window.lo)),
+          jumps_(jumps_of(*scene.transfer_function, facts.range, rounding_, facts.diagonal)) {}
+
+    double rounding() const { return rounding_; }  // of a scalar
+    bool none() const { return jumps_.empty() && !some_without_value_; }
+
+    // Returns the jumps that the surface of a tet with these finite scalars may be at.
+    std::span<const Jump> jumps_in(const Scalars& scalars) const {
+        const auto [least, most] = std::ranges::minmax(scalars);
+        if (least == most) return {};  // a scalar and a jump beside it round alike
+        const auto first = std::ranges::lower_bound(jumps_, least - rounding_, {}, &Jump::hi);
+        auto end = first;
+        while (end != jumps_.end() && end->lo <= most + rounding_) ++end;
+        return {first, end};
+    }
+    // Tells whether a tet's neighbour shows nothing for lack of a value.
+    bool ends_at(std::int32_t tet, std::size_t face) const {
+        if (!some_without_value_) return false;
+        const std::int32_t behind = mesh_.mesh.neighbors()[static_cast<std::size_t>(tet)][face];
+        return behind != TetMesh::no_neighbor && !are_finite(scalars_of(mesh_, behind));
+    }
+    bool any_in(std::int32_t tet) const {
+        const Scalars scalars = scalars_of(mesh_, tet);
+        if (!are_finite(scalars)) return false;
+        if (!jumps_in(scalars).empty()) return true;
+        for (std::size_t face = 0; face < 4; ++face)
+            if (ends_at(tet, face)) return true;
+        return false;
+    }
 
   private:
-    std::array<Point, 6> points_{};
-    std::size_t count_ = 0;
+    const SceneMesh& mesh_;
+    bool some_without_value_;
+    double rounding_;
+    std::vector<Jump> jumps_;
 };
+
+template <typename Point>
+using Corners = FewPoints<Point, 6>;
 
 double distance_from_line(const glm::dvec2& point, const glm::dvec2& on, const glm::dvec2& along) {
     const glm::dvec2 way = point - on;
@@ -120,23 +163,24 @@ class Picture {
 
     const WindowView& window() const { return window_; }
 
-    // Returns the polygon if it is nearly edge-on, without what lies behind the eye.
-    std::optional<EdgeOn> edge_on(const Corners<glm::dvec3>& corners) const {
-        if (corners.size() < 3) return {};
+    // Returns the polygon as a line, without what lies behind the eye, unless it is wider than
+    // this.
+    std::optional<EdgeOn> edge_on(const Corners<glm::dvec3>& corners, double widest) const {
+        if (corners.count < 3) return {};
         const Corners<glm::dvec2> seen = project(corners);
         EdgeOn line;
         double longest = 0;
-        for (const glm::dvec2& a : seen) {
-            for (const glm::dvec2& b : seen) {
+        for (const glm::dvec2& a : seen.points()) {
+            for (const glm::dvec2& b : seen.points()) {
                 const double length = glm::length(b - a);
                 if (length > longest) line = {a, b};
                 longest = std::max(longest, length);
             }
         }
         if (!(longest > 0) || !std::isfinite(longest)) return {};
-        for (const glm::dvec2& point : seen) {
+        for (const glm::dvec2& point : seen.points()) {
             line.width = std::max(line.width, line.distance(point));
-            if (!(line.width <= nearly_edge_on)) return {};
+            if (!(line.width <= widest)) return {};
         }
         return line;
     }
@@ -146,7 +190,7 @@ class Picture {
         double pixel = window_.view().pixel;
         if (window_.perspective()) {
             double depth = std::numeric_limits<double>::infinity();
-            for (const glm::dvec3& corner : corners) depth = std::min(depth, corner.z);
+            for (const glm::dvec3& corner : corners.points()) depth = std::min(depth, corner.z);
             pixel *= std::max(depth, near_);
         }
         return tie_distance + place_step_ / pixel;
@@ -181,10 +225,10 @@ class Picture {
 
     Corners<glm::dvec2> project(const Corners<glm::dvec3>& corners) const {
         Corners<glm::dvec2> seen;
-        for (const glm::dvec3& a : corners) {
+        for (const glm::dvec3& a : corners.points()) {
             if (a.z < near_) continue;
             seen.add(window_.to_window(a));
-            for (const glm::dvec3& b : corners) {
+            for (const glm::dvec3& b : corners.points()) {
                 if (b.z < near_)
                     seen.add(window_.to_window(a + (near_ - a.z) / (b.z - a.z) * (b - a)));
             }
@@ -203,62 +247,52 @@ class SurfaceSearch {
   public:
     SurfaceSearch(const Scene& scene, const SceneMesh& mesh, const MeshFacts& facts)
         : transfer_function_(*scene.transfer_function),
+          scene_mesh_(mesh),
           mesh_(mesh.mesh),
-          values_(mesh.scalar.values),
-          some_without_value_(facts.non_finite > 0),
           diagonal_(facts.diagonal),
-          rounding_(scalar_rounding * (facts.window.hi - facts.window.lo)),
-          jumps_(jumps_of(transfer_function_, facts.range, rounding_, facts.diagonal)),
+          surfaces_(scene, mesh, facts),
+          rounding_(surfaces_.rounding()),
           picture_(scene, facts.diagonal) {}
 
-    double largest() {
+    // `tets`: tets_with_surfaces().
+    double largest(std::span<const std::int32_t> tets) {
         const auto faces = mesh_.open_faces();
         parallel_for(std::ssize(faces), 1 << 10,
                      [&](std::int64_t index) { look_at(faces[static_cast<std::size_t>(index)]); });
-        if (jumps_.empty() && !some_without_value_) return largest_;
-        parallel_for(std::ssize(mesh_.tets()), 1 << 10,
-                     [&](std::int64_t index) { look_at_tet(static_cast<std::int32_t>(index)); });
+        parallel_for(std::ssize(tets), 1 << 10, [&](std::int64_t index) {
+            look_at_tet(tets[static_cast<std::size_t>(index)]);
+        });
         return largest_;
     }
 
   private:
-    using Scalars = std::array<double, 4>;  // at a tet's corners
-
     void look_at(const TetFace& face) {
-        const Scalars scalars = scalars_of(face.tet);
+        const Scalars scalars = scalars_of(scene_mesh_, face.tet);
+        if (!are_finite(scalars)) return;
         const auto [least, most] = std::ranges::minmax(scalars);
-        if (!std::isfinite(least + most)) return;
         const double shown = transfer_function_.max_extinction(least, most);
         const double change = -std::expm1(-shown * diagonal_);
-        if (!(change > least_change)) return;
+        if (!(change > least_change) || change <= largest_) return;
         Corners<glm::dvec3> corners;
         for (const glm::dvec3& corner : mesh_.corners(face))
             corners.add(picture_.window().see(corner));
-        if (const auto line = picture_.edge_on(corners)) add_if_met(*line, corners, {}, change);
+        const double tie = picture_.tie(corners);
+        const auto line = picture_.edge_on(corners, tie);
+        if (line && picture_.meets_pixel(*line, tie)) add(change);
     }
 
     // Looks at the jumps in a tet, and at its faces to tets that show nothing for lack of a value.
     void look_at_tet(std::int32_t tet) {
-        const Scalars scalars = scalars_of(tet);
+        const Scalars scalars = scalars_of(scene_mesh_, tet);
+        for (std::int32_t face = 0; face < 4; ++face)
+            if (surfaces_.ends_at(tet, static_cast<std::size_t>(face))) look_at({tet, face});
         const auto [least, most] = std::ranges::minmax(scalars);
-        if (!std::isfinite(least + most)) return;
-        if (some_without_value_) {
-            for (int face = 0; face < 4; ++face) {
-                const std::int32_t behind =
-                    mesh_
-                        .neighbors()[static_cast<std::size_t>(tet)][static_cast<std::size_t>(face)];
-                if (behind == TetMesh::no_neighbor) continue;
-                const auto [a, b] = std::ranges::minmax(scalars_of(behind));
-                if (!std::isfinite(a + b)) look_at({tet, face});
-            }
-        }
-        if (least == most) return;  // a scalar and a jump beside it round alike
-        auto jump = std::ranges::lower_bound(jumps_, least - rounding_, {}, &Jump::hi);
-        for (; jump != jumps_.end() && jump->lo <= most + rounding_; ++jump)
-            look_at(tet, scalars, std::clamp(0.5 * jump->lo + 0.5 * jump->hi, least, most), *jump);
+        for (const Jump& jump : surfaces_.jumps_in(scalars))
+            look_at(tet, scalars, std::clamp(0.5 * jump.lo + 0.5 * jump.hi, least, most), jump);
     }
 
     void look_at(std::int32_t tet, const Scalars& scalars, double level, const Jump& jump) {
+        if (jump.change <= largest_) return;
         std::array<glm::dvec3, 4> seen;
         for (std::size_t i = 0; i < 4; ++i) {
             const std::int32_t corner = mesh_.tets()[static_cast<std::size_t>(tet)][i];
@@ -279,9 +313,9 @@ class SurfaceSearch {
             }
         }
         if (std::max(most - level, level - least) <= rounding_) return add(jump.change);
-        const auto line = picture_.edge_on(corners);
+        const auto line = picture_.edge_on(corners, std::numeric_limits<double>::infinity());
         if (!line) return;
-        // Pixels for a unit of the scalar. It does not change along the line.
+        // Pixels for a unit of the scalar. It does not change along the line if this is edge-on.
         double pixels = 0;
         for (std::size_t i = 0; i < 4; ++i) {
             const bool in_front = !picture_.window().perspective() || seen[i].z > 0;
@@ -289,20 +323,10 @@ class SurfaceSearch {
                 pixels = std::max(pixels, line->distance(picture_.window().to_window(seen[i])) /
                                               std::abs(scalars[i] - level));
         }
-        add_if_met(*line, corners, {pixels * rounding_, pixels * 0.5 * (jump.hi - jump.lo)},
-                   jump.change);
-    }
-
-    // Pixels by which roundings of scalars move a surface, and half the width of a steep ramp.
-    struct Reach {
-        double rounding = 0, ramp = 0;
-    };
-
-    void add_if_met(const EdgeOn& line, const Corners<glm::dvec3>& corners, const Reach& reach,
-                    double change) {
-        const double tie = picture_.tie(corners) + reach.rounding;
-        if (line.width > tie || !picture_.meets_pixel(line, tie + reach.ramp)) return;
-        add(change);
+        // Roundings of the scalar move the surface, and a steep ramp reaches to both sides of it.
+        const double tie = picture_.tie(corners) + pixels * rounding_;
+        const double ramp = pixels * 0.5 * (jump.hi - jump.lo);
+        if (line->width <= tie && picture_.meets_pixel(*line, tie + ramp)) add(jump.change);
     }
 
     void add(double change) {
@@ -311,30 +335,41 @@ class SurfaceSearch {
         }
     }
 
-    Scalars scalars_of(std::int32_t tet) const {
-        Scalars found{};
-        for (std::size_t i = 0; i < 4; ++i) {
-            found[i] =
-                values_[static_cast<std::size_t>(mesh_.tets()[static_cast<std::size_t>(tet)][i])];
-        }
-        return found;
-    }
-
     const TransferFunction& transfer_function_;
+    const SceneMesh& scene_mesh_;
     const TetMesh& mesh_;
-    const std::vector<double>& values_;
-    bool some_without_value_;
     double diagonal_;
+    InnerSurfaces surfaces_;
     double rounding_;  // of a scalar
-    std::vector<Jump> jumps_;
     Picture picture_;
     std::atomic<double> largest_ = 0;
 };
 
 }  // namespace
 
+std::vector<std::int32_t> tets_with_surfaces(const Scene& scene, const SceneMesh& mesh,
+                                             const MeshFacts& facts) {
+    const InnerSurfaces surfaces(scene, mesh, facts);
+    if (surfaces.none()) return {};
+    constexpr std::int64_t tets_per_task = 8192;
+    const auto count = std::ssize(mesh.mesh.tets());
+    std::vector<std::vector<std::int32_t>> found(
+        static_cast<std::size_t>((count + tets_per_task - 1) / tets_per_task));
+    parallel_for(std::ssize(found), 1, [&](std::int64_t task) {
+        const std::int64_t end = std::min(count, (task + 1) * tets_per_task);
+        for (std::int64_t tet = task * tets_per_task; tet < end; ++tet) {
+            const auto number = static_cast<std::int32_t>(tet);
+            if (surfaces.any_in(number)) found[static_cast<std::size_t>(task)].push_back(number);
+        }
+    });
+    std::vector<std::int32_t> tets;
+    for (const auto& mine : found) tets.insert(tets.end(), mine.begin(), mine.end());
+    return tets;
+}
+
 double surface_ray_error(const Scene& scene, const SceneMesh& mesh, const MeshFacts& facts) {
-    return SurfaceSearch(scene, mesh, facts).largest();
+    return SurfaceSearch(scene, mesh, facts)
+        .largest(facts.surface_tets ? *facts.surface_tets : std::vector<std::int32_t>());
 }
 
 }  // namespace lamina

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh/mesh_shape.h"
 
+#include <algorithm>
+#include <atomic>
 #include <numeric>
-#include <optional>
 #include <tuple>
 
 #include "base/parallel.h"
@@ -97,75 +98,106 @@ class FaceSets {
     std::size_t count_;
 };
 
-// Tells whether a closed surface without concave edges, which may cross itself, winds once around
-// its inside: pyramids on both sides of a pentagram wind twice (docs/numerics.md, Convex meshes).
-class Winding {
+// Tells whether the faces around each point of a closed surface without concave edges are part of
+// a convex cone's boundary: pyramids on both sides of a pentagram go round their tops twice
+// (docs/numerics.md, Convex meshes).
+class Fans {
   public:
-    // `edges`: sorted; each stands there twice.
-    Winding(const TetMesh& mesh, std::span<const BoundaryEdge> edges)
-        : mesh_(mesh), edges_(edges) {}
+    Fans(const TetMesh& mesh, double tolerance)
+        : mesh_(mesh), tolerance_(tolerance), starts_(mesh.points().size() + 1) {
+        const auto count = static_cast<std::int32_t>(mesh.open_faces().size());
+        for (std::int32_t face = 0; face < count; ++face)
+            for (const std::int32_t point : open_face(mesh, face)) ++starts_[point + 1];
+        std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
+        blades_.resize(3 * mesh.open_faces().size());
+        std::vector<std::int32_t> next(starts_.begin(), starts_.end() - 1);
+        for (std::int32_t face = 0; face < count; ++face) {
+            const auto corners = open_face(mesh, face);
+            for (std::size_t i = 0; i < 3; ++i)
+                blades_[next[corners[i]]++] = {corners[(i + 1) % 3], corners[(i + 2) % 3]};
+        }
+    }
 
-    bool is_single() {
-        const std::optional<std::int32_t> top = only_top();
-        return top && turns_once(*top);
+    // Returns the least convexity of all points. Parallel; call once.
+    Convexity least() {
+        std::atomic<bool> none = false, rounded = false;
+        parallel_for(std::ssize(mesh_.points()), points_per_task, [&](std::int64_t point) {
+            if (starts_[point] == starts_[point + 1] || none) return;
+            const Convexity here = of_point(static_cast<std::int32_t>(point));
+            if (here == Convexity::none) none = true;
+            if (here == Convexity::within_rounding) rounded = true;
+        });
+        return none ? Convexity::none : rounded ? Convexity::within_rounding : Convexity::exact;
     }
 
   private:
-    const glm::dvec3& point(std::int32_t place) const { return mesh_.points()[place]; }
+    // A face at a point: its other corners, counter-clockwise as seen from outside.
+    struct Blade {
+        std::int32_t from, to;
+    };
+    static constexpr std::int64_t points_per_task = 4096;
+    // Sine of the angle within which directions are one. A larger one may only deny convexity.
+    static constexpr double one_direction = 1e-12;
 
-    // Returns the surface's only point that is higher than its neighbours, if it has one and is a
-    // sphere, by Euler's formula. "Higher" is along the cross product of two vectors.
-    std::optional<std::int32_t> only_top() const {
-        constexpr std::uint8_t elsewhere = 0, highest = 1, lower = 2;
-        std::vector<std::uint8_t> state(mesh_.points().size(), elsewhere);
-        const auto see = [&](std::int32_t place, bool is_lower) {
-            state[place] = is_lower ? lower : std::max(state[place], highest);
-        };
-        for (std::size_t i = 0; i < edges_.size(); i += 2) {
-            const auto& [low, high, face, apex] = edges_[i];
-            const int sign = sign_of_determinant(point(low), point(high), across, glm::dvec3(0),
-                                                 other_across, glm::dvec3(0));
-            if (sign == 0) return {};
-            see(low, sign < 0);
-            see(high, sign > 0);
+    // Goes round a point from the edge to the first neighbour: this has to lie inside each face,
+    // and in the cone of none but its own, and all other neighbours inside the first face.
+    Convexity of_point(std::int32_t point) {
+        const std::span<Blade> fan(blades_.begin() + starts_[point],
+                                   blades_.begin() + starts_[point + 1]);
+        std::ranges::sort(fan, {}, &Blade::from);
+        const Blade first = fan.front();
+        Convexity result = Convexity::exact;
+        std::size_t seen = 1;
+        for (Blade blade = first; blade.to != first.from; ++seen) {
+            const auto next = std::ranges::lower_bound(fan, blade.to, {}, &Blade::from);
+            if (next == fan.end() || next->from != blade.to || seen == fan.size())
+                return Convexity::none;
+            blade = *next;
+            if (blade.to == first.from) continue;  // the last face: it has the edge, too
+            const Plane plane(mesh_, point, blade);
+            result = std::min({result, plane.has_inside(first.from, tolerance_),
+                               Plane(mesh_, point, first).has_inside(blade.to, tolerance_)});
+            if (plane.cone_has(first.from, tolerance_)) return Convexity::none;
         }
-        const auto points = std::ranges::count_if(state, [](auto s) { return s != elsewhere; });
-        if (2 * points != std::ssize(mesh_.open_faces()) + 4) return {};
-        const auto top = std::ranges::find(state, highest);
-        if (top == state.end() || std::find(top + 1, state.end(), highest) != state.end())
-            return {};
-        return static_cast<std::int32_t>(top - state.begin());
+        return seen == fan.size() ? result : Convexity::none;
     }
 
-    // Tells whether the points around the top turn once around it: then they come nearer to a
-    // plane that turns about an axis through the top, and then go away from it, once each.
-    bool turns_once(std::int32_t top) const {
-        std::vector<std::pair<std::int32_t, bool>>
-            ways;  // each point twice: do the two edges rise?
-        for (std::int32_t face = 0; face < std::ssize(mesh_.open_faces()); ++face) {
-            const auto corners = open_face(mesh_, face);
-            const auto at = std::ranges::find(corners, top) - corners.begin();
-            if (at == 3) continue;
-            const std::int32_t from = corners[(at + 1) % 3], to = corners[(at + 2) % 3];
-            const int sign = sign_of_determinant(point(from), point(top), point(to), point(top),
-                                                 across, glm::dvec3(0));
-            if (sign == 0) return false;
-            ways.emplace_back(from, sign > 0);
-            ways.emplace_back(to, sign > 0);
-        }
-        std::ranges::sort(ways);
-        int turns = 0;  // points at which a rise ends or begins
-        for (std::size_t i = 0; i + 1 < ways.size(); i += 2)
-            turns += ways[i].second != ways[i + 1].second;
-        return turns == 2;
-    }
+    class Plane {
+      public:
+        Plane(const TetMesh& mesh, std::int32_t point, const Blade& blade)
+            : mesh_(mesh),
+              top_(at(point)),
+              from_(at(blade.from)),
+              to_(at(blade.to)),
+              normal_(glm::cross(from_ - top_, to_ - top_)) {}
 
-    // Vectors that are at right angles to no edge of a mesh, but by a chance of 1e-15.
-    static constexpr glm::dvec3 across{1, .7548776662466927, .1180339887498949},
-        other_across{.2360679774997897, 1, .5698402909980532};
+        Convexity has_inside(std::int32_t point, double tolerance) const {
+            if (orientation(top_, from_, to_, at(point)) <= 0) return Convexity::exact;
+            return height(point) <= tolerance * glm::length(normal_) ? Convexity::within_rounding
+                                                                     : Convexity::none;
+        }
+        // Tells whether a point, if near the plane, is in the face's cone, edges included.
+        bool cone_has(std::int32_t point, double tolerance) const {
+            if (std::abs(height(point)) > tolerance * glm::length(normal_)) return false;
+            const glm::dvec3 way = at(point) - top_;
+            return turns_left(from_ - top_, way) && turns_left(way, to_ - top_);
+        }
+
+      private:
+        const glm::dvec3& at(std::int32_t point) const { return mesh_.points()[point]; }
+        double height(std::int32_t point) const { return glm::dot(normal_, at(point) - top_); }
+        bool turns_left(const glm::dvec3& a, const glm::dvec3& b) const {
+            return glm::dot(normal_, glm::cross(a, b)) >=
+                   -one_direction * glm::length(normal_) * glm::length(a) * glm::length(b);
+        }
+        const TetMesh& mesh_;
+        glm::dvec3 top_, from_, to_, normal_;
+    };
 
     const TetMesh& mesh_;
-    std::span<const BoundaryEdge> edges_;
+    double tolerance_;
+    std::vector<std::int32_t> starts_;  // of each point's blades
+    std::vector<Blade> blades_;
 };
 
 }  // namespace
@@ -211,7 +243,8 @@ Convexity convexity(const TetMesh& mesh) {
         result = std::min(result, here);
         surfaces.join(edges[i].face, edges[i + 1].face);
     }
-    return surfaces.count() == 1 && Winding(mesh, edges).is_single() ? result : Convexity::none;
+    if (surfaces.count() != 1) return Convexity::none;
+    return std::min(result, Fans(mesh, tolerance).least());
 }
 
 }  // namespace lamina

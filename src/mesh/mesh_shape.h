@@ -21,9 +21,9 @@ enum class Convexity {
 };
 
 // Tells whether the mesh fills a convex body, each place once: its boundary is one closed surface
-// without a concave edge (Tietze 1928, Nakajima 1928) that winds once around its inside, and no
-// face is folded or nonmanifold. Dents as deep as the
-// rounding of doubles (1e-16) are within_rounding; those of float coordinates (1e-8) are not.
+// that is convex near each of its points (Tietze 1928, Nakajima 1928), and no face is folded or
+// nonmanifold. Dents as deep as the rounding of doubles (1e-16) are within_rounding; those of float
+// coordinates (1e-8) are not. Parallel; the time grows with the number of open faces.
 Convexity convexity(const TetMesh& mesh);
 
 inline bool convex(const TetMesh& mesh) {

@@ -28,9 +28,10 @@ namespace {
 
 constexpr std::int64_t tets_per_task = 1024;
 
-// Limit on the pairs examined, per tet with an open face on average, and for few of these that all
-// overlap. A tet of a Delaunay mesh meets the boxes of 80.
-constexpr std::int64_t most_tests_per_tet = 200, most_tests_of_few = 1'000'000;
+// Limit on the work of finding pairs, per tet with an open face on average, and for few of these
+// that all overlap. Looking at an entry of the tree's leaves is 1, testing a pair of tets 8. In
+// Delaunay meshes with many open faces a tet takes 1250: 460 entries, 98 tests.
+constexpr std::int64_t most_work_per_tet = 2000, most_work_of_few = 10'000'000, work_of_test = 8;
 
 // Distance, as a share of the far end's, within which two places of entry are one (tie_distance()).
 constexpr double tie_share = 1e-10;
@@ -142,7 +143,7 @@ class TouchedCells {
         mark(boxes);
     }
 
-    // Tells whether a tet may touch an open face.
+    // Tells whether a tet may touch an open face. It may if it is so large that looking takes long.
     bool may_touch(const Tet& tet) const {
         Cell first = cells_[tet[0]], last = first;
         for (std::size_t i = 1; i < 4; ++i) {
@@ -152,6 +153,9 @@ class TouchedCells {
                 last[axis] = std::max(last[axis], cell[axis]);
             }
         }
+        std::int64_t cells = 1;
+        for (std::size_t axis = 0; axis < 3; ++axis) cells *= last[axis] - first[axis] + 1;
+        if (cells > most_cells_of_tet) return true;
         bool touches = false;
         for_cells(first, last, [&](std::size_t cell) { return !(touches = marked_[cell] != 0); });
         return touches;
@@ -161,7 +165,8 @@ class TouchedCells {
     using Cell = std::array<std::uint8_t, 4>;  // of each axis; the last is not used
 
     static constexpr int most_cells = 128;  // of an axis: 2 MB in all
-    static constexpr std::int64_t most_marks_per_box = 64, points_per_task = 4096;
+    static constexpr std::int64_t most_cells_of_tet = 512, most_marks_per_box = 64,
+                                  points_per_task = 4096;
 
     Cell cell_of(const glm::dvec3& place) const {
         Cell cell{};
@@ -262,13 +267,13 @@ class OverlapSearch {
 
     // Finds the pairs of which one tet has an open face. Returns false if there are too many.
     bool propose() {
-        const FaceTree tree(boxes_);
+        const FaceTree tree(open_boxes_);
         const TouchedCells near(mesh_, open_boxes_);
         const auto count = std::ssize(kinds_);
         const std::int64_t tasks = (count + tets_per_task - 1) / tets_per_task;
         std::vector<std::vector<TetPair>> found(static_cast<std::size_t>(tasks));
         std::atomic<std::int64_t> left{
-            std::max(most_tests_of_few, most_tests_per_tet * std::ssize(open_))};
+            std::max(most_work_of_few, most_work_per_tet * std::ssize(open_))};
         std::atomic<std::size_t> total{0};
         parallel_for(tasks, 1, [&](std::int64_t task) {
             const std::int64_t end = std::min(count, (task + 1) * tets_per_task);
@@ -285,7 +290,7 @@ class OverlapSearch {
         return true;
     }
 
-    // Finds the pairs of a tet and one with an open face near it. Returns how many were examined.
+    // Finds the pairs of a tet and one with an open face near it. Returns the work that it took.
     std::int64_t propose_with(std::int32_t tet, const FaceTree& tree,
                               std::vector<TetPair>& found) const {
         const PlacedTet here = placed(tet);
@@ -293,21 +298,22 @@ class OverlapSearch {
         const bool open = kinds_[tet] == Kind::open;
         const FaceTree::Box open_box = open ? around_open_faces(tet) : FaceTree::nothing();
         std::optional<std::array<FacePlane, 4>> faces;
-        std::int64_t tests = 0;
-        tree.visit([&](const FaceTree::Box& node) { return boxes_meet(node, box); },
+        std::int64_t work = 0;
+        tree.visit([&](const FaceTree::Box& node) { return boxes_touch(node, box); },
                    [&](std::int32_t index) {
+                       ++work;
                        const std::int32_t other = open_[index];
                        if (other == tet || !boxes_touch(open_boxes_[index], box) ||
                            !boxes_meet(boxes_[index], box) || neighbors(tet, other))
                            return;
                        // The smaller one of two tets with open faces near each other finds both.
                        if (open && other < tet && boxes_touch(open_box, boxes_[index])) return;
-                       ++tests;
+                       work += work_of_test;
                        if (!faces) faces = faces_of(here);
                        if (overlap(here, *faces, placed(other)))
                            found.push_back(std::minmax(tet, other));
                    });
-        return tests;
+        return work;
     }
 
     // Steps from pair to pair. Returns false if there are too many.

@@ -28,8 +28,9 @@ struct TetOverlaps {
 // Returns the tets of all pairs, ascending.
 std::vector<std::int32_t> tets_of(std::span<const TetPair> pairs);
 
-// Finds all overlaps of a mesh, unless there are more than `most` pairs. Parallel; the time grows
-// with the number of open faces and of overlaps, and hardly with that of tets.
+// Finds all overlaps of a mesh, unless there are more than `most` pairs. Pairs at open faces are
+// found in parallel; steps from these to all others are serial. The time grows with the number of
+// open faces and of overlaps, and hardly with that of tets.
 TetOverlaps find_overlaps(const TetMesh& mesh, std::size_t most);
 
 // The rule by which a ray composites the segments of overlapping tets, as whole segments one after

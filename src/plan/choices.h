@@ -112,11 +112,6 @@ Scene with_chosen_target(Scene scene, Target target);
 // scalar may change more (SliceRemarks::surface_error; docs/precision.md, "Exact segments").
 inline constexpr double exact_segment_error = 0.05;
 
-// Rounding of scalars, as a share of the window to which they are normalised: they and the transfer
-// function's points are float32 numbers of the window, rounded a few times by at most half of 2^-23
-// of it. For pieces of tets scalars are normalised to the piece, and this does not apply.
-inline constexpr double scalar_rounding = 0x1p-22;
-
 // A classification and why it is taken.
 struct ClassificationChoice {
     Classification classification = Classification::post;  // not automatic

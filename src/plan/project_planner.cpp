@@ -18,6 +18,7 @@
 #include "facts/drawn_range.h"
 #include "optics/opacity.h"
 #include "optics/pieces.h"
+#include "optics/scalar_rounding.h"
 #include "optics/segment_integral.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
@@ -386,7 +387,7 @@ struct ProjectPlanner {
         plan.error = picture_error();
         const double brightest = std::max(largest_drawn_color(scene, facts.max_color), 1.0);
         const double surface = 255 * brightest * facts.surface_error;
-        if (plan.error.kind != ErrorKind::sampled || surface <= brightest * float_error) return;
+        if (plan.error.kind != ErrorKind::sampled || !(surface > 0)) return;
         if (plan.error.value + surface <= scene.max_error) {
             plan.error.value += surface;
         } else {

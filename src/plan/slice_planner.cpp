@@ -15,6 +15,7 @@
 #include "facts/drawn_range.h"
 #include "facts/volume_facts.h"
 #include "optics/pieces.h"
+#include "optics/scalar_rounding.h"
 #include "optics/segment_integral.h"
 #include "scene/camera.h"
 
@@ -50,10 +51,6 @@ constexpr std::uint64_t gradient_bytes = 8;  // bytes a sample (slicing/gradient
 // place, its scalar, its opacity and its colour. Those of compositing are counted by
 // rounding_bound.
 constexpr double chord_rounding = 1e-5, slab_rounding = 0x1p-22;
-
-// Width, in roundings, up to which a ramp of the transfer function counts as a jump: on wider ones
-// a rounding moves a scalar by less than a thousandth of the ramp.
-constexpr double steep_width = 1024;
 
 // The optics at a scalar. At a step there are two points of one scalar.
 struct OpticsPoint {

@@ -92,9 +92,8 @@ std::span<const std::int32_t> VisibilityOrder::sort(const Eye& eye,
                 if (!farthest_first_) return sort_topologically(breaks);
                 const std::int64_t broken = farthest_first_->sort(*graph_, order_);
                 if (broken == 0) return;
-                find_cycles([](auto) {
-                    return false;
-                });  // only for the report: FarthestFirst has made the order
+                // Only for the report: FarthestFirst has made the order.
+                find_cycles([](auto) { return false; });
                 report_.broken = broken;
                 report_.broken_area = 0;
             },

@@ -33,12 +33,25 @@ TEST(MeshShape, ConvexMeshesAreRecognized) {
     EXPECT_EQ(convexity_of(test::twisted_prism(-20)), Convexity::exact);
 }
 
+// Returns p turned about two axes.
+glm::dvec3 turned_twice(const glm::dvec3& p, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    const glm::dvec3 q(c * p.x - s * p.y, s * p.x + c * p.y, p.z);
+    return {q.x, c * q.y - s * q.z, s * q.y + c * q.z};
+}
+
 // The sides of a box that is turned by an irrational angle are flat only up to 1e-16.
 TEST(MeshShape, RoundedBoxesAreConvexWithinRounding) {
     MeshData turned = box({5, 5, 5});
     for (glm::dvec3& p : turned.points)
         p = {std::cos(1.) * p.x - std::sin(1.) * p.y, std::sin(1.) * p.x + std::cos(1.) * p.y, p.z};
     EXPECT_EQ(convexity_of(turned), Convexity::within_rounding);
+    for (const double angle : {.3, .7, 1.3, 2.1, 2.9}) {
+        MeshData stretched = box({9, 4, 14});
+        for (glm::dvec3& p : stretched.points)
+            p = turned_twice(p * glm::dvec3(1, 1e-4, 300), angle) + 100.;
+        EXPECT_EQ(convexity_of(stretched), Convexity::within_rounding) << angle;
+    }
     // A dent of 1e-9 counts.
     MeshData dented = box({2, 2, 2});
     dented.points[4].z += 1e-9;  // the middle of the side z = 0
@@ -75,6 +88,62 @@ TEST(MeshShape, SurfacesThatWindTwiceAreNotConvex) {
         MeshData turned = bipyramid(n, around);
         for (glm::dvec3& point : turned.points) point = {point.z, -point.y, point.x};
         EXPECT_EQ(convexity_of(turned), Convexity::none);
+    }
+}
+
+// A limacon, drawn once, has a loop inside: all edges of its bipyramid are convex, and along most
+// directions only one point is higher than its neighbours, but it is covered twice there.
+TEST(MeshShape, BipyramidsOverALimaconAreNotConvex) {
+    MeshData mesh;
+    mesh.points = {{.15, 0, .4}, {.15, 0, -.4}};
+    for (int i = 0; i < 11; ++i) {
+        const double t = 2 * std::numbers::pi * i / 11 + .013, r = .7 + std::cos(t);
+        mesh.points.emplace_back(r * std::cos(t), r * std::sin(t), 0);
+        mesh.tets.push_back({0, 1, 2 + i, 2 + (i + 1) % 11});
+    }
+    const TetMesh limacon(mesh, "limacon");
+    EXPECT_EQ(limacon.findings().boundary_faces, 22);
+    EXPECT_EQ(limacon.findings().folded_faces, 0);
+    EXPECT_FALSE(find_overlaps(limacon, 100).pairs.empty());
+    for (const double angle : {0., .4, 1., 1.7, 2.9}) {
+        MeshData other = mesh;
+        for (glm::dvec3& point : other.points) point = turned_twice(point, angle);
+        EXPECT_EQ(convexity_of(other), Convexity::none) << angle;
+    }
+}
+
+// Returns a prism whose base's corners are drawn `around` times around its middle, which is a point
+// of top and bottom, too. Corners of the second turn are farther round by `shift` of a step.
+MeshData prism(int around, double shift) {
+    const int n = 6 * around;
+    MeshData mesh;
+    mesh.points = {{0, 0, 0}, {0, 0, 1}};
+    for (int i = 0; i < n; ++i) {
+        const double step = i + shift * (i < 6 ? i : 12 - i) / 6;
+        const double angle = std::numbers::pi / 3 * step;
+        const double radius = i < 6 ? 1 : .875;  // so that no points coincide
+        for (const double z : {0., 1.})
+            mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+        const std::int32_t p = 2 + 2 * i, q = 2 + 2 * ((i + 1) % n);
+        mesh.tets.insert(mesh.tets.end(),
+                         {{0, p, q, q + 1}, {0, p, p + 1, q + 1}, {0, 1, p + 1, q + 1}});
+    }
+    return mesh;
+}
+
+// Fans of faces in one plane may go round a point twice. The second turn meets the first one's
+// neighbours at equal angles, or halfway between.
+TEST(MeshShape, FlatFansThatTurnTwiceAreNotConvex) {
+    for (const double angle : {0., .4, 1.3}) {
+        MeshData mesh = prism(1, 0);
+        for (glm::dvec3& point : mesh.points) point = turned_twice(point, angle);
+        EXPECT_NE(convexity_of(mesh), Convexity::none) << angle;
+        for (const double shift : {0., .5}) {
+            mesh = prism(2, shift);
+            EXPECT_EQ(TetMesh(mesh, "prism").findings().folded_faces, 0);
+            for (glm::dvec3& point : mesh.points) point = turned_twice(point, angle);
+            EXPECT_EQ(convexity_of(mesh), Convexity::none) << angle << " " << shift;
+        }
     }
 }
 

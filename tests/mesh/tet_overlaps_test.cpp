@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <map>
 
+#include "mesh/mesh_shape.h"
 #include "support/carved_mesh.h"
 #include "support/needle_soup.h"
 #include "support/overlapping_tets.h"
@@ -164,6 +167,58 @@ TEST(TetOverlaps, AreFoundInsideOfMeshes) {
         EXPECT_GT(expected.size(), 40) << name;
         EXPECT_EQ(found_in(mesh), expected) << name;
     }
+}
+
+// Returns tets between the origin and the faces of a bumpy sphere: those of an octahedron whose
+// sides are cut into `cells` each, 8 cells^2 in all.
+MeshData coned_sphere(int cells) {
+    MeshData mesh;
+    mesh.points.emplace_back(0, 0, 0);
+    const auto add = [&](const glm::dvec3& p) {
+        const glm::dvec3 way = glm::normalize(p);
+        const glm::dvec3 wave = glm::sin(7. * way);
+        mesh.points.push_back((1 + .1 * wave.x * wave.y * wave.z) * way);
+        return static_cast<std::int32_t>(mesh.points.size() - 1);
+    };
+    // A square of 2 cells a side, whose halves are folded up and down.
+    std::map<std::array<int, 3>, std::int32_t> places;
+    const auto place = [&](int x, int y, int side) {
+        const std::array<int, 3> key{x, y, side * (cells - std::abs(x) - std::abs(y))};
+        const auto [found, is_new] = places.try_emplace(key, 0);
+        if (is_new) found->second = add({key[0], key[1], key[2]});
+        return found->second;
+    };
+    for (const int side : {-1, 1}) {
+        for (const int u : {-1, 1}) {
+            for (const int v : {-1, 1}) {
+                for (int x = 0; x < cells; ++x) {
+                    for (int y = 0; x + y < cells; ++y) {
+                        const auto at = [&](int i, int j) { return place(u * i, v * j, side); };
+                        mesh.tets.push_back({0, at(x, y), at(x + 1, y), at(x, y + 1)});
+                        if (x + y + 1 < cells)
+                            mesh.tets.push_back({0, at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)});
+                    }
+                }
+            }
+        }
+    }
+    return mesh;
+}
+
+// The boxes of tets around one point overlap, but few are near the open faces of others.
+TEST(TetOverlaps, AreFoundInStars) {
+    const TetMesh star(coned_sphere(8), "star");
+    EXPECT_EQ(convexity(star), Convexity::none);
+    EXPECT_EQ(found_in(star), by_all_pairs(star));
+    const TetMesh pair(together(coned_sphere(6), moved(coned_sphere(4), .3, {.8, .1, .2})), "pair");
+    const std::vector<TetPair> expected = by_all_pairs(pair);
+    EXPECT_GT(expected.size(), 40);
+    EXPECT_EQ(found_in(pair), expected);
+    // So many tets that the search would give up if it looked at all with boxes that meet: in each
+    // eighth of space, 8 million pairs.
+    const TetOverlaps many = find_overlaps(TetMesh(coned_sphere(64), "star"), 10);
+    EXPECT_TRUE(many.complete);
+    EXPECT_TRUE(many.pairs.empty());
 }
 
 // One mesh twice, the second time with its cells cut along other diagonals: the sides of all cells

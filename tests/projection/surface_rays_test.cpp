@@ -138,6 +138,61 @@ TEST(SurfaceRays, OfConstantTetsAreOnOneSide) {
     EXPECT_GT(surface_error(mesh, scene), 0);
 }
 
+// In a window much wider than a tet's range, roundings move its surface by far more than those of
+// places: here by 2^-22 * 2.1 / 1e-4 = .005, .125 pixels. The rays are askew to it by .003 of the
+// length of its parts in tets, which is .3 to 1: by .02 to .075 pixels.
+TEST(SurfaceRays, AreFoundIfRoundingsOfAWideWindowMoveTheSurface) {
+    SceneMesh mesh = ramp_box();
+    for (double& value : mesh.scalar.values) value = 1 + 1e-4 * value;
+    mesh.scalar.values.front() = 0;
+    mesh.scalar.values.back() = 2;
+    Scene scene = along_z(
+        1.3, TransferFunction::linear({knot(0, {1, 1, 1}, .1), knot(1.00013, {1, 1, 1}, .2),
+                                       knot(1.00013, {1, 1, 1}, .6), knot(2, {1, 1, 1}, .9)}));
+    scene.camera->height = .28;
+    scene.camera->eye.x += .015;
+    const double across = -std::expm1(-.4 * diagonal);
+    EXPECT_NEAR(surface_error(mesh, scene), across, 1e-9);
+    // Half a pixel is too far, and so is an angle of .1.
+    scene.camera->eye.x += .02;
+    scene.camera->center.x += .02;
+    EXPECT_EQ(surface_error(mesh, scene), 0);
+    scene.camera->eye.x += .5;
+    scene.camera->center.x -= .02;
+    EXPECT_EQ(surface_error(mesh, scene), 0);
+}
+
+// Views look only at tets that data and transfer function leave: here those of one side of the box,
+// and those beside tets without a value.
+TEST(SurfaceRays, AreLookedForInTetsWithAJump) {
+    SceneMesh mesh = ramp_box();
+    EXPECT_EQ(measure_data(along_z(1, without_jumps), mesh).surface_tets, nullptr);
+    const auto tets = measure_data(along_z(1, jump(.3, .1, .6)), mesh).surface_tets;
+    ASSERT_NE(tets, nullptr);
+    EXPECT_EQ(tets->size(), mesh.mesh.tets().size() / 2);
+    for (const std::int32_t tet : *tets)
+        for (const glm::dvec3& corner : mesh.mesh.corners(tet)) EXPECT_LE(corner.x, 1);
+    Scene scene = along_z(1, without_jumps);
+    scene.nan = NanPolicy::transparent;
+    mesh.scalar.values[26] = NAN;  // the corner (2, 2, 2)
+    const auto beside = measure_data(scene, mesh).surface_tets;
+    ASSERT_NE(beside, nullptr);
+    EXPECT_LT(beside->size(), mesh.mesh.tets().size() / 2);
+}
+
+// A bound that is smaller than the roundings of colours adds to them.
+TEST(SurfaceRays, CountHoweverLittleTheyChange) {
+    const SceneMesh mesh = ramp_box();
+    const Scene scene = along_z(2.1, without_jumps);
+    MeshFacts facts = measure(scene, mesh);
+    const auto claimed = [&](double error) {
+        facts.surface_error = error / 255;
+        return make_plan(scene, facts, cpu_capabilities(), {}, nullptr).error();
+    };
+    ASSERT_EQ(claimed(0).kind, ErrorKind::sampled);
+    EXPECT_NEAR(claimed(.03).value - claimed(0).value, .03, 1e-12);
+}
+
 TEST(SurfaceRays, BesideTetsWithoutAValueAreInABoundary) {
     SceneMesh mesh = ramp_box();
     Scene scene = along_z(1, without_jumps);
