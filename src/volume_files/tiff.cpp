@@ -395,17 +395,20 @@ class TiffStack {
 
     // Decodes the planes, whose samples take `bytes` bytes.
     std::shared_ptr<void> decoded(std::size_t bytes) {
-        file_.reset();  // both processes would move its place
+        file_.reset();  // all processes would move its place
         const std::size_t plane = bytes / planes_.size();
-        return isolated_bytes(
-            name_, "libtiff", bytes, bytes * static_cast<std::size_t>(page_.samples),
-            planes_.size(), [&](std::size_t first, std::size_t end, char* to) {
-                for (std::size_t i = first; i < end; ++i) {
-                    const Plane& each = planes_[i];
-                    open(each.file).go_to(each.page);
-                    file_->read(each.page, each.sample, each.image, to + i * plane);
-                }
-            });
+        const auto each_pixel = static_cast<std::size_t>(page_.samples);
+        // A tile may have all images of a page.
+        const std::size_t largest = plane * each_pixel * static_cast<std::size_t>(page_.depth);
+        return isolated_bytes(name_, "libtiff", bytes, bytes * each_pixel, largest, planes_.size(),
+                              [&](std::size_t first, std::size_t end, char* to) {
+                                  for (std::size_t i = first; i < end; ++i) {
+                                      const Plane& each = planes_[i];
+                                      open(each.file).go_to(each.page);
+                                      file_->read(each.page, each.sample, each.image,
+                                                  to + i * plane);
+                                  }
+                              });
     }
 
     // Describes planes that lie in a file one after another, as raw data do; else returns nothing.

@@ -329,7 +329,8 @@ TEST(ZarrFilters, KeepTheSignOfAFirstZero) {
 // A library that crashes or hangs in an isolated process does not end this one.
 TEST(IsolatedRead, CrashesAndHangsAreErrors) {
     const auto filling = [](const std::function<void()>& fill) {
-        isolated_bytes("a.h5", "libx", 1, 1, 1, [&](std::size_t, std::size_t, char*) { fill(); });
+        isolated_bytes("a.h5", "libx", 1, 1, 1, 1,
+                       [&](std::size_t, std::size_t, char*) { fill(); });
     };
     expect_error([&] { filling([] { std::abort(); }); }, {"a.h5", "libx ended with signal"});
     expect_error([&] { filling([] { fail("a.h5: no"); }); }, {"a.h5: no"});
