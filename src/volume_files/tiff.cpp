@@ -65,6 +65,7 @@ class TiffStack {
         const std::size_t bytes = stored_bytes(name_, sizes(), bytes_of(type_));
         StoredSamples samples{name_, type_, nullptr, found_.scale, found_.shift};
         if (const std::optional<StoredData> data = is_behind_ ? data_behind() : data_in_a_row()) {
+            if (!is_behind_) say_taken(name_, taken_);  // else reading the data says it
             if (!page_.is_half()) return open_stored(grid(), *data, use);
             expect_room(name_, 2 * bytes, use, "its samples are floats of 16 bits");
             samples = read_stored(*data);
@@ -374,10 +375,11 @@ class TiffStack {
         const std::int64_t together = page_.planar ? 1 : page_.samples;
         ByteBuffer pixels(together > 1 ? plane * static_cast<std::size_t>(together) : 0);
         std::optional<RandomAccessFile> file;
+        std::optional<std::size_t> opened;
         for (const Plane& each : planes_) {
             check_interrupt();
-            if (&each == &planes_[0] || each.file != (&each - 1)->file)
-                file.emplace(files_[each.file]);
+            if (opened != each.file) file.emplace(files_[each.file]);
+            opened = each.file;
             if (together > 1) {
                 const StoredAxis axes[] = {{together, each.sample}, page_.width * page_.height};
                 file->read(*each.page.raw, pixels.data(), pixels.size());
@@ -412,7 +414,7 @@ class TiffStack {
     }
 
     // Describes planes that lie in a file one after another, as raw data do; else returns nothing.
-    std::optional<StoredData> data_in_a_row() {
+    std::optional<StoredData> data_in_a_row() const {
         if (!are_raw() || (page_.samples > 1 && !page_.planar)) return {};
         const std::size_t plane = stored_bytes(name_, sizes(), bytes_of(type_)) / planes_.size();
         const auto place = [&](const Plane& each) {
@@ -425,7 +427,6 @@ class TiffStack {
         StoredData data = raw_data(planes_[0].file, planes_[0].page);
         data.axes = {page_.width, page_.height, slices_};
         place_raw(data, begin);
-        say_taken(name_, taken_);
         return data;
     }
 
