@@ -351,7 +351,7 @@ class SliceReader {
         const std::shared_ptr<void> counted = memory_for_processes(sizeof(Count));
         Count& padded = *new (counted.get()) Count(0);
         samples_.bytes =
-            isolated_bytes(series_.name, "GDCM", bytes_, bytes_ + largest, series_.images.size(),
+            isolated_bytes(series_.name, "GDCM", bytes_, bytes_, largest, series_.images.size(),
                            [&](std::size_t first, std::size_t end, char* to) {
                                read_images(first, end, to);
                                padded += padded_;

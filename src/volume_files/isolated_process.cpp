@@ -9,6 +9,8 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <sys/wait.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,7 +20,6 @@
 #include <fstream>
 #include <mutex>
 #include <new>
-#include <thread>
 #include <vector>
 
 #include "base/client.h"
@@ -164,6 +165,16 @@ void end_with_starter(pid_t starter) {
     _exit(0);
 }
 
+// Returns how many processes decode `items` pictures, `decoded` bytes in all.
+std::size_t processes_for(std::size_t decoded, std::size_t items) {
+    // Bytes that a process decodes in some 10 ms, beside which its start does not count.
+    constexpr std::size_t least_bytes = std::size_t{4} << 20, most_processes = 16;
+    const std::size_t allowed =
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    const auto cores = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    return std::min({items, most_processes, 1 + decoded / least_bytes, allowed, cores});
+}
+
 }  // namespace
 
 IsolatedProcess::IsolatedProcess(std::string name, const char* library, const Work& work)
@@ -284,22 +295,35 @@ std::shared_ptr<void> memory_for_processes(std::size_t bytes) {
 
 std::shared_ptr<void> isolated_bytes(
     const std::string& name, const char* library, std::size_t bytes, std::size_t decoded,
-    std::size_t items, const std::function<void(std::size_t, std::size_t, char*)>& fill) {
+    std::size_t largest, std::size_t items,
+    const std::function<void(std::size_t, std::size_t, char*)>& fill) {
     constexpr char filled = 1;
-    // Bytes that a process decodes in some 10 ms, beside which its start does not count.
-    constexpr std::size_t least_bytes = std::size_t{4} << 20, most_processes = 16;
-    const std::size_t count =
-        std::min({items, most_processes, 1 + decoded / least_bytes,
-                  std::max<std::size_t>(1, std::thread::hardware_concurrency())});
+    struct Part {
+        std::size_t first, end;
+    };
     const std::shared_ptr<void> memory = memory_for_processes(bytes);
+    const std::size_t all = std::max(bytes, decoded);
+    const auto work = [&](IsolatedLine& line) {
+        Part part{};
+        if (!line.next(&part, sizeof part)) return;
+        const std::size_t count = part.end - part.first;
+        line.allow_bytes(largest + (largest > all / count ? all : count * largest));
+        fill(part.first, part.end, static_cast<char*>(memory.get()));
+        line.answer(&filled, sizeof filled);
+    };
     std::vector<std::unique_ptr<IsolatedProcess>> processes;
+    for (const std::size_t wanted = processes_for(decoded, items); processes.size() < wanted;) {
+        try {
+            processes.push_back(std::make_unique<IsolatedProcess>(name, library, work));
+        } catch (const Error&) {  // too many processes or files: fewer do the same
+            if (processes.empty()) throw;
+            break;
+        }
+    }
+    const std::size_t count = processes.size();
     for (std::size_t i = 0; i < count; ++i) {
-        processes.push_back(
-            std::make_unique<IsolatedProcess>(name, library, [&](IsolatedLine& line) {
-                line.allow_bytes(std::max(bytes, decoded));
-                fill(items * i / count, items * (i + 1) / count, static_cast<char*>(memory.get()));
-                line.answer(&filled, sizeof filled);
-            }));
+        const Part part{items * i / count, items * (i + 1) / count};
+        processes[i]->ask(&part, sizeof part);
     }
     char answer = 0;
     for (const auto& process : processes) process->receive(&answer, sizeof answer);

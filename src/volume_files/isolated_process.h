@@ -60,12 +60,15 @@ class IsolatedProcess {
 // Returns memory of zeros that this process shares with those that it starts later.
 std::shared_ptr<void> memory_for_processes(std::size_t bytes);
 
-// Calls fill(first, end, memory) in isolated processes, one for each core: each decodes its part of
-// `items` pictures into its part of the `bytes` bytes of memory that are returned. `decoded`: how
-// many bytes the library decodes for all, which bounds the time and memory of each. Few bytes take
-// one process.
+// Calls fill(first, end, memory) in isolated processes, one for each core that oneTBB may use: each
+// decodes its part of `items` pictures into its part of the `bytes` bytes of memory that are
+// returned. If some cannot be started, the others share all items. `decoded` and `largest`: how
+// many bytes the library decodes for all items, and for one at most. They bound the time and memory
+// of each process by its own part and one item more. Few bytes take one process. Throws Error: that
+// of the first part that has one.
 std::shared_ptr<void> isolated_bytes(
     const std::string& name, const char* library, std::size_t bytes, std::size_t decoded,
-    std::size_t items, const std::function<void(std::size_t, std::size_t, char*)>& fill);
+    std::size_t largest, std::size_t items,
+    const std::function<void(std::size_t, std::size_t, char*)>& fill);
 
 }  // namespace lamina

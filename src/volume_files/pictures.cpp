@@ -324,12 +324,14 @@ Volume open_pictures(const Path& path, const VolumeRequest& request, const Volum
     expect_room(name, bytes, use, "pictures are read as a whole");
     StoredSamples samples{name, word == 1 ? ValueType::uint8 : ValueType::uint16, nullptr};
     // Decoders take up to 16 bytes for a pixel of a few pictures (CodedImage, libjpeg's scans).
-    const std::size_t decoded = bytes * static_cast<std::size_t>(kind.channels) + 16 * each;
+    const std::size_t decoded = bytes * static_cast<std::size_t>(kind.channels);
+    const std::size_t largest = each * static_cast<std::size_t>(kind.channels) + 16 * each;
     const auto read = [&](std::size_t first, std::size_t end, char* to) {
         for (std::size_t i = first; i < end; ++i)
             read_picture(files[i], kind, static_cast<int>(*channel.taken), to + i * each);
     };
-    samples.bytes = isolated_bytes(name, "libpng or libjpeg", bytes, decoded, files.size(), read);
+    samples.bytes =
+        isolated_bytes(name, "libpng or libjpeg", bytes, decoded, largest, files.size(), read);
     return drawn_volume(plain_grid({kind.width, kind.height, std::ssize(files)}), samples,
                         use.lookup);
 }

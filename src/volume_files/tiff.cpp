@@ -65,6 +65,7 @@ class TiffStack {
         const std::size_t bytes = stored_bytes(name_, sizes(), bytes_of(type_));
         StoredSamples samples{name_, type_, nullptr, found_.scale, found_.shift};
         if (const std::optional<StoredData> data = is_behind_ ? data_behind() : data_in_a_row()) {
+            if (!is_behind_) say_taken(name_, taken_);  // else reading the data says it
             if (!page_.is_half()) return open_stored(grid(), *data, use);
             expect_room(name_, 2 * bytes, use, "its samples are floats of 16 bits");
             samples = read_stored(*data);
@@ -374,10 +375,11 @@ class TiffStack {
         const std::int64_t together = page_.planar ? 1 : page_.samples;
         ByteBuffer pixels(together > 1 ? plane * static_cast<std::size_t>(together) : 0);
         std::optional<RandomAccessFile> file;
+        std::optional<std::size_t> opened;
         for (const Plane& each : planes_) {
             check_interrupt();
-            if (&each == &planes_[0] || each.file != (&each - 1)->file)
-                file.emplace(files_[each.file]);
+            if (opened != each.file) file.emplace(files_[each.file]);
+            opened = each.file;
             if (together > 1) {
                 const StoredAxis axes[] = {{together, each.sample}, page_.width * page_.height};
                 file->read(*each.page.raw, pixels.data(), pixels.size());
@@ -395,21 +397,24 @@ class TiffStack {
 
     // Decodes the planes, whose samples take `bytes` bytes.
     std::shared_ptr<void> decoded(std::size_t bytes) {
-        file_.reset();  // both processes would move its place
+        file_.reset();  // all processes would move its place
         const std::size_t plane = bytes / planes_.size();
-        return isolated_bytes(
-            name_, "libtiff", bytes, bytes * static_cast<std::size_t>(page_.samples),
-            planes_.size(), [&](std::size_t first, std::size_t end, char* to) {
-                for (std::size_t i = first; i < end; ++i) {
-                    const Plane& each = planes_[i];
-                    open(each.file).go_to(each.page);
-                    file_->read(each.page, each.sample, each.image, to + i * plane);
-                }
-            });
+        const auto each_pixel = static_cast<std::size_t>(page_.samples);
+        // A tile may have all images of a page.
+        const std::size_t largest = plane * each_pixel * static_cast<std::size_t>(page_.depth);
+        return isolated_bytes(name_, "libtiff", bytes, bytes * each_pixel, largest, planes_.size(),
+                              [&](std::size_t first, std::size_t end, char* to) {
+                                  for (std::size_t i = first; i < end; ++i) {
+                                      const Plane& each = planes_[i];
+                                      open(each.file).go_to(each.page);
+                                      file_->read(each.page, each.sample, each.image,
+                                                  to + i * plane);
+                                  }
+                              });
     }
 
     // Describes planes that lie in a file one after another, as raw data do; else returns nothing.
-    std::optional<StoredData> data_in_a_row() {
+    std::optional<StoredData> data_in_a_row() const {
         if (!are_raw() || (page_.samples > 1 && !page_.planar)) return {};
         const std::size_t plane = stored_bytes(name_, sizes(), bytes_of(type_)) / planes_.size();
         const auto place = [&](const Plane& each) {
@@ -422,7 +427,6 @@ class TiffStack {
         StoredData data = raw_data(planes_[0].file, planes_[0].page);
         data.axes = {page_.width, page_.height, slices_};
         place_raw(data, begin);
-        say_taken(name_, taken_);
         return data;
     }
 

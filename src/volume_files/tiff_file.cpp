@@ -211,16 +211,19 @@ std::optional<std::uint64_t> TiffFile::raw_samples(const TiffPage& page) const {
         !is_packed() && !is_tiled() && !page.is_bitwise() && page.bits <= 64 &&
         field<std::uint16_t>(TIFFTAG_FILLORDER, FILLORDER_MSB2LSB) == FILLORDER_MSB2LSB &&
         field<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) != PHOTOMETRIC_YCBCR;
+    if (!as_read) return {};
     const std::size_t row_bytes = stored_row(page, page.width * (page.planar ? 1 : page.samples));
     const std::int64_t rows = rows_of_strips(page);
     const std::uint64_t begin = TIFFGetStrileOffset(tiff, 0);
-    if (!as_read || rows < 1 || TIFFScanlineSize64(tiff) != row_bytes || row_bytes > file_bytes_ ||
+    if (rows < 1 || TIFFScanlineSize64(tiff) != row_bytes || row_bytes > file_bytes_ ||
         begin > file_bytes_)
         return {};
     std::uint64_t at = begin;
     std::uint32_t strip = 0;
     for (std::int64_t plane = 0; plane < (page.planar ? page.samples : 1); ++plane) {
         for (std::int64_t row = 0; row < page.height; row += rows, ++strip) {
+            constexpr std::uint32_t often = 4096;  // strips, some 100 us
+            if (strip % often == 0) check_interrupt();
             const std::uint64_t there = TIFFGetStrileByteCount(tiff, strip);
             const auto bytes =
                 static_cast<std::uint64_t>(std::min(rows, page.height - row)) * row_bytes;

@@ -22,6 +22,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t most_zarr_axes = 16;
+// Filters of an array; programs write one or two. Each takes a pass over every chunk.
+constexpr std::size_t most_zarr_filters = 8;
 
 // Returns a list of whole numbers above 0. Throws Error, which begins with `name`, the file's.
 std::vector<std::int64_t> zarr_sizes(const Json& object, const char* key, const std::string& name) {
@@ -146,6 +148,10 @@ void read_compressor(const Json& document, ZarrArray& array, const std::string& 
 void read_filters(const Json& document, ZarrArray& array, const std::string& name) {
     const Json* const filters = member_of(document, "filters");
     if (filters == nullptr || filters->is_null()) return;
+    if (filters->is_array() && filters->size() > most_zarr_filters) {
+        fail("{}: filters: found {}, expected at most {}", name, filters->size(),
+             most_zarr_filters);
+    }
     const std::size_t bytes = array.stored_bytes();
     const Json& dtype = document["dtype"];
     const auto has = [&](const Json& filter, const char* key, const Json& expected) {

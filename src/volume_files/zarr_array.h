@@ -44,7 +44,7 @@ struct ZarrFilter {
     bool are_floats = false;
 };
 
-// Undoes filters, which are in the order in which they encode.
+// Undoes filters, which are in the order in which they encode. Ends early if a stop is requested.
 void undo_filters(std::span<const ZarrFilter> filters, std::span<char> chunk);
 
 // Chunks that lie together in one file (sharding codec, version 1.0). An index says where each

@@ -15,6 +15,7 @@
 #include <new>
 #include <utility>
 
+#include "base/client.h"
 #include "base/error.h"
 #include "base/input_file.h"
 #include "volume_files/stored_samples.h"
@@ -89,11 +90,14 @@ void unshuffle(std::size_t word, std::span<char> chunk) {
         for (std::size_t b = 0; b < word; ++b) chunk[i * word + b] = stored[b * count + i];
 }
 
-// Adds up differences; whole numbers wrap, as NumPy's do.
+// Adds up differences behind the first value, which is kept as it is: 0 + -0 is 0. Whole numbers
+// wrap, as NumPy's do.
 template <typename Value>
 void add_up(std::span<char> chunk) {
     Value sum = 0, difference = 0;
-    for (std::size_t at = 0; at < chunk.size(); at += sizeof sum) {
+    if (chunk.size() < sizeof sum) return;
+    std::memcpy(&sum, chunk.data(), sizeof sum);
+    for (std::size_t at = sizeof sum; at < chunk.size(); at += sizeof sum) {
         std::memcpy(&difference, &chunk[at], sizeof sum);
         sum = static_cast<Value>(sum + difference);
         std::memcpy(&chunk[at], &sum, sizeof sum);
@@ -161,6 +165,7 @@ const ZarrCodec* zarr_codec(std::string_view name, int version) {
 
 void undo_filters(std::span<const ZarrFilter> filters, std::span<char> chunk) {
     for (std::size_t i = filters.size(); i-- > 0;) {
+        check_interrupt();
         if (filters[i].kind == ZarrFilter::Kind::shuffle)
             unshuffle(filters[i].word, chunk);
         else

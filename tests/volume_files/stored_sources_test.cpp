@@ -177,6 +177,12 @@ TEST_F(StoredSources, PlaceRawDataAmongOtherBytes) {
     write("a.bin", "head1234567");
     place_raw(data, 4);
     expect_error([&] { read_stored(data); }, {"a.bin", "8 bytes", "holds 7 bytes"});
+    // Offsets of damaged files lie up to 2^62 bytes behind the file's begin.
+    for (const std::uint64_t far : {(std::uint64_t{1} << 62) - 4, std::uint64_t{1} << 62}) {
+        place_raw(data, far);
+        EXPECT_EQ(data.byte_skip, static_cast<std::int64_t>(far));
+        expect_error([&] { read_stored(data); }, {"a.bin", "8 bytes", "holds 0 bytes"});
+    }
 }
 
 TEST_F(StoredSources, RefuseWhatMustBeReadAsAWhole) {

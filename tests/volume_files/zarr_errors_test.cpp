@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Zarr arrays that are damaged, or promise what their chunks cannot hold.
+#include <array>
+#include <cstring>
 #include <nlohmann/json.hpp>
+#include <stop_token>
 
+#include "base/client.h"
+#include "base/error.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 #include "volume_files/isolated_process.h"
 #include "volume_files/volume_file.h"
+#include "volume_files/zarr_array.h"
 
 namespace lamina {
 namespace {
@@ -77,6 +83,17 @@ TEST_F(ZarrErrors, NameBadKeysOfTheArray) {
     expect_bad_key("compressor", 5, {"compressor", "found 5"});
     expect_bad_key("dimension_separator", "-", {"dimension_separator", "\"-\""});
     expect_bad_key("fill_value", "x", {"fill_value", "\"x\""});
+}
+
+// Each filter takes a pass over every chunk; those that leave no trace count, too.
+TEST_F(ZarrErrors, RefuseMoreThanEightFilters) {
+    const json shuffle{{"id", "shuffle"}, {"elementsize", 1}};
+    json array = good();
+    array["filters"] = json(8, shuffle);
+    EXPECT_EQ(read_volume(write(array, std::string(24, 'x'))).grid().sample_count(), 24);
+    expect_bad_key("filters", json(9, shuffle), {"filters: found 9, expected at most 8"});
+    expect_bad_key("filters", json(9, json{{"id", "bitround"}}),
+                   {"filters: found 9, expected at most 8"});
 }
 
 TEST_F(ZarrErrors, NameBadChunks) {
@@ -288,10 +305,32 @@ TEST(OtherStores, AreRefusedByName) {
     expect_error([&] { read_volume(folder.path()); }, {"Neuroglancer precomputed"});
 }
 
+// The loop over filters looks for a requested stop, which tasks of one chunk do not.
+TEST(ZarrFilters, EndWhenAStopIsRequested) {
+    std::stop_source stop;
+    stop.request_stop();
+    const ClientScope scope({stop.get_token()});
+    std::array<char, 8> chunk{};
+    const ZarrFilter filters[] = {{ZarrFilter::Kind::shuffle, 2}};
+    EXPECT_THROW(undo_filters(filters, chunk), Interrupted);
+    EXPECT_NO_THROW(undo_filters({}, chunk));
+}
+
+TEST(ZarrFilters, KeepTheSignOfAFirstZero) {
+    const float stored[] = {-0.f, 1.f, -3.f}, expected[] = {-0.f, 1.f, -2.f};
+    std::array<char, sizeof stored> chunk{};
+    std::memcpy(chunk.data(), stored, sizeof stored);
+    const ZarrFilter filters[] = {{ZarrFilter::Kind::delta, sizeof(float), false, true}};
+    undo_filters(filters, chunk);
+    EXPECT_EQ(std::memcmp(chunk.data(), expected, sizeof expected), 0);
+    undo_filters(filters, {});  // no value at all
+}
+
 // A library that crashes or hangs in an isolated process does not end this one.
 TEST(IsolatedRead, CrashesAndHangsAreErrors) {
     const auto filling = [](const std::function<void()>& fill) {
-        isolated_bytes("a.h5", "libx", 1, 1, 1, [&](std::size_t, std::size_t, char*) { fill(); });
+        isolated_bytes("a.h5", "libx", 1, 1, 1, 1,
+                       [&](std::size_t, std::size_t, char*) { fill(); });
     };
     expect_error([&] { filling([] { std::abort(); }); }, {"a.h5", "libx ended with signal"});
     expect_error([&] { filling([] { fail("a.h5: no"); }); }, {"a.h5: no"});

@@ -355,6 +355,13 @@ def others(h5py, cases, write, add, bad):
         write(f"{mode}.h5", colours.transpose(order), {"CLASS": np.bytes_("IMAGE"), "INTERLACE_MODE": np.bytes_(mode),
                                                        "IMAGE_SUBCLASS": np.bytes_("IMAGE_TRUECOLOR")})
         add(f"{mode}.h5", colours[None, :, :, 1], channel=1, contents={"is_colour": True})
+    for order in "<>":  # 512 bytes of another program before the file, from which its places count
+        name = f"user_block_{'little' if order == '<' else 'big'}.h5"
+        with h5py.File(cases.path(name), "w", userblock_size=512) as file:
+            file["v"] = ramp(order + "i2")
+        with open(cases.path(name), "r+b") as file:
+            file.write(b"x" * 512)
+        add(name, ramp("<i2"))
     with h5py.File(cases.path("soft.h5"), "w") as file:
         file["group/v"] = ramp()
         file["link"] = h5py.SoftLink("/group/v")
@@ -428,6 +435,17 @@ def refused(h5py, cases, write, add, bad):
         bad("complex.h5", "complex numbers of r, i", **request)
     write("words.h5", np.full(SHAPE, b"word"))
     bad("words.h5", "found text of 4 bytes", array="/v")
+    with h5py.File(cases.path("beyond.h5"), "w") as file:
+        file["v"] = ramp()
+        # Data Layout message, version 3: class 1 (contiguous), address.
+        place = struct.pack("<BBQ", 3, 1, file["v"].id.get_offset())
+    for far in (1 << 20, (1 << 62) - 8):  # samples that begin behind the end of their file
+        name = f"beyond_{far.bit_length()}.h5"
+        with open(cases.path("beyond.h5"), "rb") as file, open(cases.path(name), "wb") as out:
+            data = file.read()
+            assert data.count(place) == 1
+            out.write(data.replace(place, struct.pack("<BBQ", 3, 1, far)))
+        bad(name, name, "240 bytes", "holds 0 bytes")
     with h5py.File(cases.path("minc.mnc.h5"), "w") as file:
         file["minc-2.0/image/0/image"] = ramp()
     for request in ({}, {"array": "/minc-2.0/image/0/image"}, {"array": "minc-2.0/image/0/image"}):
