@@ -92,6 +92,13 @@ void integrate_cells(Ray ray, REAL2 depths, inout RaySum sum) {
         bool second = hard && waits;
         bool some_second = any_of_group(second), some_goes = any_of_group(goes);
         if (second || some_second || !some_goes) cut(waiting, waits, sum);
+#ifdef ENDS_EARLY
+        if (sum.depth >= opaque_depth) {  // what follows is hidden
+            behind = empty_sum;
+            hard = false;
+            goes = false;
+        }
+#endif
 #endif
         if (hard) {
             put_behind(behind, sum);
@@ -105,7 +112,7 @@ void integrate_cells(Ray ray, REAL2 depths, inout RaySum sum) {
 #endif
         goes = goes && left > REAL(0.0);
 #ifdef ENDS_EARLY
-        goes = goes && before.x + behind.depth < opaque_depth;
+        goes = goes && max(sum.depth, before.x + behind.depth) < opaque_depth;
 #endif
     }
     put_behind(behind, sum);

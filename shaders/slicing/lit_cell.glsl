@@ -10,7 +10,7 @@ struct CellPart {
     ivec3 cell;
     vec3 place, change;
     vec3 to_eye;          // direction along the grid's axes
-    float transmittance;  // of what is in front; at least, because crossings that wait do not count
+    float transmittance;  // of what is in front, without crossings since the last part that was hard
     float depth;          // set by add_whole_part(): the optical depth if it lies in one interval, else 0
     float longest_piece;  // set by it, too: length of the first piece if it is cut, as a share of the part
 };

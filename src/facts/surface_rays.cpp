@@ -368,8 +368,9 @@ std::vector<std::int32_t> tets_with_surfaces(const Scene& scene, const SceneMesh
 }
 
 double surface_ray_error(const Scene& scene, const SceneMesh& mesh, const MeshFacts& facts) {
-    return SurfaceSearch(scene, mesh, facts)
-        .largest(facts.surface_tets ? *facts.surface_tets : std::vector<std::int32_t>());
+    std::span<const std::int32_t> tets;
+    if (facts.surface_tets) tets = *facts.surface_tets;
+    return SurfaceSearch(scene, mesh, facts).largest(tets);
 }
 
 }  // namespace lamina

@@ -29,9 +29,10 @@ namespace {
 constexpr std::int64_t tets_per_task = 1024;
 
 // Limit on the work of finding pairs, per tet with an open face on average, and for few of these
-// that all overlap. Looking at an entry of the tree's leaves is 1, testing a pair of tets 8. In
-// Delaunay meshes with many open faces a tet takes 1250: 460 entries, 98 tests.
-constexpr std::int64_t most_work_per_tet = 2000, most_work_of_few = 10'000'000, work_of_test = 8;
+// that all overlap. Looking at a node of the tree or at an entry of a leaf is 1, testing a pair of
+// tets 8. In Delaunay meshes with many open faces a tet takes some 1500: 460 entries, 98 tests, and
+// the nodes above them.
+constexpr std::int64_t most_work_per_tet = 4000, most_work_of_few = 10'000'000, work_of_test = 8;
 
 // Distance, as a share of the far end's, within which two places of entry are one (tie_distance()).
 constexpr double tie_share = 1e-10;
@@ -299,20 +300,22 @@ class OverlapSearch {
         const FaceTree::Box open_box = open ? around_open_faces(tet) : FaceTree::nothing();
         std::optional<std::array<FacePlane, 4>> faces;
         std::int64_t work = 0;
-        tree.visit([&](const FaceTree::Box& node) { return boxes_touch(node, box); },
-                   [&](std::int32_t index) {
-                       ++work;
-                       const std::int32_t other = open_[index];
-                       if (other == tet || !boxes_touch(open_boxes_[index], box) ||
-                           !boxes_meet(boxes_[index], box) || neighbors(tet, other))
-                           return;
-                       // The smaller one of two tets with open faces near each other finds both.
-                       if (open && other < tet && boxes_touch(open_box, boxes_[index])) return;
-                       work += work_of_test;
-                       if (!faces) faces = faces_of(here);
-                       if (overlap(here, *faces, placed(other)))
-                           found.push_back(std::minmax(tet, other));
-                   });
+        const auto may_touch = [&](const FaceTree::Box& node) {
+            ++work;
+            return boxes_touch(node, box);
+        };
+        tree.visit(may_touch, [&](std::int32_t index) {
+            ++work;
+            const std::int32_t other = open_[index];
+            if (other == tet || !boxes_touch(open_boxes_[index], box) ||
+                !boxes_meet(boxes_[index], box) || neighbors(tet, other))
+                return;
+            // The smaller one of two tets with open faces near each other finds both.
+            if (open && other < tet && boxes_touch(open_box, boxes_[index])) return;
+            work += work_of_test;
+            if (!faces) faces = faces_of(here);
+            if (overlap(here, *faces, placed(other))) found.push_back(std::minmax(tet, other));
+        });
         return work;
     }
 

@@ -176,31 +176,36 @@ TEST_P(MarchTest, TilesSortedByCostDrawTheSame) {
 
 // Cells to cut lie in many places of a wave, so that rays of a group meet their first, second, ...
 // one in different steps. Who cuts with whom must not change a bit: unlit and lit, in one dispatch
-// and in several, with rays that end early, and in fragment shaders.
+// and in several, in fragment shaders, and if a cell that waits hides all behind it.
 TEST_P(MarchTest, RaysThatCutAloneDrawTheSame) {
     if (!gl::has_extension("GL_ARB_shader_group_vote")) GTEST_SKIP() << "no votes in shaders";
     Capabilities alone = capabilities();
     alone.rays.alone = true;
+    const TransferFunction shells = TransferFunction::linear(
+        {knot(0, {.1, .2, .6}, 0), knot(90, {.2, .7, .5}, 0), knot(92, {.2, .7, .5}, 3000),
+         knot(94, {.2, .7, .5}, 0), knot(180, {.9, .7, .5}, 9), knot(255, {1, .2, .1}, 40)});
     Lighting lighting;
     lighting.smallest_gradient = .01;
-    Scene scene = scene_of(64, many_points());
-    scene.slice.classification = Classification::exact;
-    for (const bool lit : {false, true}) {
-        if (lit) scene.lighting = lighting;
-        const Facts facts = measure(scene, volume_, measure_bricks(volume_));
-        for (const Target target : {Target::float32, Target::emulated, Target::fixed8}) {
-            scene.target = target;
-            for (const int slabs : {64, 5}) {
-                const auto drawn = [&](const Capabilities& each) {
-                    Plan plan = make_plan(scene, facts, each, {});
-                    plan.slice.marched_slabs = slabs;
-                    GlSliceRenderer renderer(volume_, *scene.transfer_function, facts, plan.slice,
-                                             each, scene.width, scene.height);
-                    renderer.draw(View(*scene.camera, scene.width, scene.height));
-                    return renderer.read().rgba;
-                };
-                EXPECT_EQ(drawn(alone), drawn(capabilities()))
-                    << lit << " " << name_of(target) << " " << slabs;
+    for (const TransferFunction& transfer_function : {many_points(), shells}) {
+        Scene scene = scene_of(64, transfer_function);
+        scene.slice.classification = Classification::exact;
+        for (const bool lit : {false, true}) {
+            if (lit) scene.lighting = lighting;
+            const Facts facts = measure(scene, volume_, measure_bricks(volume_));
+            for (const Target target : {Target::float32, Target::emulated, Target::fixed8}) {
+                scene.target = target;
+                for (const int slabs : {64, 5}) {
+                    const auto drawn = [&](const Capabilities& each) {
+                        Plan plan = make_plan(scene, facts, each, {});
+                        plan.slice.marched_slabs = slabs;
+                        GlSliceRenderer renderer(volume_, *scene.transfer_function, facts,
+                                                 plan.slice, each, scene.width, scene.height);
+                        renderer.draw(View(*scene.camera, scene.width, scene.height));
+                        return renderer.read().rgba;
+                    };
+                    EXPECT_EQ(drawn(alone), drawn(capabilities()))
+                        << lit << " " << name_of(target) << " " << slabs;
+                }
             }
         }
     }
