@@ -38,10 +38,12 @@ std::string error_text(const Plan& plan) {
         return text_of(plan.error());
     SlicePlan others = plan.slice;
     others.surface_error = others.ramp_error = 0;
-    return fmt::format(
-        "unknown of rays that run along a surface at which the transfer function jumps or is very "
-        "steep; of all others {}",
-        text_of(others.error()));
+    const char* const surface = others.nearest
+                                    ? "in a face between two voxels"
+                                    : "along a surface at which the transfer function jumps or is "
+                                      "very steep";
+    return fmt::format("unknown of rays that run {}; of all others {}", surface,
+                       text_of(others.error()));
 }
 
 // Returns the part of an error's text on rays along ramps, which may be empty.

@@ -17,6 +17,7 @@
 #include "optics/pieces.h"
 #include "optics/scalar_rounding.h"
 #include "optics/segment_integral.h"
+#include "plan/voxel_faces.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -276,15 +277,19 @@ struct SlicePlanner {
     }
 
     // Sets the errors of rays along surfaces (docs/numerics.md, section 9.3). A field that is
-    // constant in each voxel has no rounding.
+    // constant in each voxel has no rounding but in faces between voxels.
     void choose_surface_error(SlicePlan& slice) const {
-        if (facts.grid.lookup == VolumeLookup::nearest) return;
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        if (facts.grid.lookup == VolumeLookup::nearest) {
+            const bool shows = !facts.occupied.empty() && !facts.constant;
+            if (shows && rays_run_in_voxel_faces(scene, facts)) slice.surface_error = infinity;
+            return;
+        }
         const TransferFunction& transfer_function = *scene.transfer_function;
         const ValueRange window = exact_range(transfer_function, facts.range, facts.type);
         const double rounding = scalar_rounding * (window.hi - window.lo);
         // Steps at the least and at the largest sample count: rays may run in a face between equal
         // samples.
-        constexpr double infinity = std::numeric_limits<double>::infinity();
         const ValueRange shown{std::nextafter(facts.range.lo, -infinity),
                                std::nextafter(facts.range.hi, infinity)};
         const double length =

@@ -119,6 +119,34 @@ TEST(SurfaceError, CountsStepsAtTheEndsOfTheSamples) {
     }
 }
 
+// Voxels of one value each, seen along an axis: with an even number of voxels and an odd number of
+// pixels, the middle column of rays runs in the faces between two. The same in perspective.
+TEST(SurfaceError, IsNotClaimedInFacesBetweenVoxels) {
+    Grid grid = test::grid_of({8, 6, 4}, Centering::cell);
+    grid.lookup = VolumeLookup::nearest;
+    const Volume volume =
+        test::volume_of<float>(grid, [](double x, double y, double z) { return x + y + z; });
+    const TransferFunction transfer_function =
+        TransferFunction::linear({knot(0, {1, 0, 0}, .1), knot(16, {0, 0, 1}, .9)});
+    for (const Projection projection : {Projection::orthographic, Projection::perspective}) {
+        Scene scene = exact_scene(transfer_function, projection);
+        const glm::dvec3 middle = volume.grid().to_world({3.5, 2.7, 1.3});
+        scene.camera->center = middle;
+        scene.camera->eye = middle - glm::dvec3(0, 0, 20);
+        scene.camera->up = {0, 1, 0};
+        scene.camera->height = 4.4;
+        scene.height = 10;
+        scene.width = 15;
+        EXPECT_EQ(claimed(volume, scene).kind, ErrorKind::unknown);
+        scene.width = 14;
+        EXPECT_EQ(claimed(volume, scene).kind, ErrorKind::derived);
+        scene.width = 15;
+        scene.camera->eye.x += 1e-3;
+        scene.camera->center.x += 1e-3;
+        EXPECT_EQ(claimed(volume, scene).kind, ErrorKind::derived);
+    }
+}
+
 // A steep ramp may change a ray along its foot by more than max_error, but it is no jump: what is
 // stated holds of all other rays, and the bound of these stands beside it.
 TEST(SurfaceError, OfRampsIsSaidBesideThatOfAllOtherRays) {
