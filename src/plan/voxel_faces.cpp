@@ -44,8 +44,8 @@ bool rays_run_in_voxel_faces(const Scene& scene, const Facts& facts) {
     for (int axis = 0; axis < 3; ++axis) {
         const auto size = static_cast<double>(grid.size[static_cast<std::size_t>(axis)]);
         const auto on_face = [&](double place) {
-            const double face = std::floor(place) + .5;
-            return face > 0 && face < size - 1 && std::abs(place - face) <= tie_distance;
+            const double face = std::round(place);  // voxel i reaches from i to i + 1
+            return face > 0 && face < size && std::abs(place - face) <= tie_distance;
         };
         const auto stays = [&](double direction) {
             return std::abs(direction) * facts.far_depth <= tie_distance;

@@ -130,7 +130,7 @@ TEST(SurfaceError, IsNotClaimedInFacesBetweenVoxels) {
         TransferFunction::linear({knot(0, {1, 0, 0}, .1), knot(16, {0, 0, 1}, .9)});
     for (const Projection projection : {Projection::orthographic, Projection::perspective}) {
         Scene scene = exact_scene(transfer_function, projection);
-        const glm::dvec3 middle = volume.grid().to_world({3.5, 2.7, 1.3});
+        const glm::dvec3 middle = volume.grid().to_world({4, 2.7, 1.3});
         scene.camera->center = middle;
         scene.camera->eye = middle - glm::dvec3(0, 0, 20);
         scene.camera->up = {0, 1, 0};
