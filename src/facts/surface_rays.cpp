@@ -19,8 +19,8 @@
 
 #include "base/parallel.h"
 #include "mesh/few_points.h"
+#include "optics/optics_change.h"
 #include "optics/pieces.h"
-#include "optics/scalar_rounding.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -44,15 +44,6 @@ struct Jump {
     double change;
 };
 
-// Bounds the change of a ray of this length if `share` of the optics' difference is exchanged.
-double change_between(const OpticalProperties& a, const OpticalProperties& b, double length,
-                      double share) {
-    const glm::dvec3 apart = glm::abs(b.color - a.color);
-    const double depth = share * std::abs(b.extinction - a.extinction) * length;
-    const double seen = std::min(1.0, std::max(a.extinction, b.extinction) * length);
-    return -std::expm1(-depth) + share * seen * std::max({apart.r, apart.g, apart.b});
-}
-
 // Returns the jumps at scalars of the range, ascending. A value at an end of the range counts: rays
 // may run in a face of such values.
 std::vector<Jump> jumps_of(const TransferFunction& transfer_function, const ValueRange& range,
@@ -62,8 +53,8 @@ std::vector<Jump> jumps_of(const TransferFunction& transfer_function, const Valu
     const auto add = [&](double lo, double hi, const OpticalProperties& a,
                          const OpticalProperties& b) {
         const double share = hi - lo > rounding ? rounding / (hi - lo) : 1;
-        const double change = change_between(a, b, length, share);
-        if (change > least_change) jumps.push_back({lo, hi, std::min(change, 1.0)});
+        const double change = OpticsChange::between(a, b, length, share).of_ray(length);
+        if (change > least_change) jumps.push_back({lo, hi, change});
     };
     std::optional<LinearPiece> before;
     for_each_linear_piece(transfer_function.knots(), std::nextafter(range.lo, -infinity),

@@ -15,9 +15,8 @@
 #include "facts/drawn_range.h"
 #include "facts/volume_facts.h"
 #include "optics/pieces.h"
-#include "optics/scalar_rounding.h"
 #include "optics/segment_integral.h"
-#include "plan/voxel_faces.h"
+#include "plan/surface_error.h"
 #include "scene/camera.h"
 
 namespace lamina {
@@ -47,74 +46,11 @@ constexpr double curve_share = 0.25;  // share of max_error that curves may cost
 
 constexpr std::uint64_t gradient_bytes = 8;  // bytes a sample (slicing/gradient_map.h)
 
-// What OpenGL's float32 arithmetic may change of a ray, as shares of full scale: chords of the box
-// (docs/precision.md, "Opacity in float32"), and in each slab four roundings of 2^-24: of its
-// place, its scalar, its opacity and its colour. Those of compositing are counted by
+// OpenGL's float32 arithmetic changes a ray by at most these shares of full scale: in chords of the
+// box (docs/precision.md, "Opacity in float32"), and in each slab by four roundings of 2^-24, of
+// its place, its scalar, its opacity and its colour. Those of compositing are counted by
 // rounding_bound.
 constexpr double chord_rounding = 1e-5, slab_rounding = 0x1p-22;
-
-// The optics at a scalar. At a step there are two points of one scalar.
-struct OpticsPoint {
-    double value;
-    OpticalProperties optics;
-};
-
-// Returns the ends of the transfer function's linear pieces in a range, in order.
-std::vector<OpticsPoint> ends_of_pieces(const TransferFunction& transfer_function,
-                                        const ValueRange& range) {
-    std::vector<OpticsPoint> ends;
-    for_each_linear_piece(transfer_function.knots(), range.lo, range.hi,
-                          [&](const LinearPiece& piece) {
-                              ends.push_back({piece.from, piece.at_from});
-                              ends.push_back({piece.to, piece.at_to});
-                          });
-    return ends;
-}
-
-// Largest changes between two scalars, of what a ray of a given length shows.
-struct OpticsChange {
-    double extinction = 0;  // per world unit
-    double color = 0;       // times the share of light that has this colour
-
-    // Returns `share` of the change from a to b, for rays of this length.
-    static OpticsChange between(const OpticalProperties& a, const OpticalProperties& b,
-                                double length, double share) {
-        const glm::dvec3 apart = glm::abs(b.color - a.color);
-        const double seen = std::min(1.0, std::max(a.extinction, b.extinction) * length);
-        return {share * std::abs(b.extinction - a.extinction),
-                share * seen * std::max({apart.r, apart.g, apart.b})};
-    }
-    void enlarge(const OpticsChange& other) {
-        extinction = std::max(extinction, other.extinction);
-        color = std::max(color, other.color);
-    }
-    OpticsChange operator+(const OpticsChange& other) const {
-        return {extinction + other.extinction, color + other.color};
-    }
-};
-
-// Bounds on the changes between scalars that a rounding may exchange.
-struct OpticsChanges {
-    OpticsChange steps;  // at jumps, and on pieces that are no wider than steep_width roundings
-    OpticsChange ramps;  // on wider pieces
-};
-
-OpticsChanges largest_changes(const std::vector<OpticsPoint>& ends, double rounding,
-                              double length) {
-    OpticsChange slopes, jumps, ramps;
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        const double width = ends[i + 1].value - ends[i].value;
-        if (width > rounding) {
-            OpticsChange& found = width > steep_width * rounding ? ramps : slopes;
-            found.enlarge(OpticsChange::between(ends[i].optics, ends[i + 1].optics, length,
-                                                rounding / width));
-        }
-        for (std::size_t j = i + 1; j < ends.size() && ends[j].value - ends[i].value <= rounding;
-             ++j)
-            jumps.enlarge(OpticsChange::between(ends[i].optics, ends[j].optics, length, 1));
-    }
-    return {slopes + jumps, ramps};
-}
 
 // Decides how a scene is sliced. make() has the order of its choices, each of which depends on
 // those before:
@@ -276,37 +212,12 @@ struct SlicePlanner {
         return taken ? error : 0;
     }
 
-    // Sets the errors of rays along surfaces (docs/numerics.md, section 9.3). A field that is
-    // constant in each voxel has no rounding but in faces between voxels.
+    // Sets the errors of rays along surfaces.
     void choose_surface_error(SlicePlan& slice) const {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        if (facts.grid.lookup == VolumeLookup::nearest) {
-            const bool shows = !facts.occupied.empty() && !facts.constant;
-            if (shows && rays_run_in_voxel_faces(scene, facts)) slice.surface_error = infinity;
-            return;
-        }
-        const TransferFunction& transfer_function = *scene.transfer_function;
-        const ValueRange window = exact_range(transfer_function, facts.range, facts.type);
-        const double rounding = scalar_rounding * (window.hi - window.lo);
-        // Steps at the least and at the largest sample count: rays may run in a face between equal
-        // samples.
-        const ValueRange shown{std::nextafter(facts.range.lo, -infinity),
-                               std::nextafter(facts.range.hi, infinity)};
-        const double length =
-            std::min(box_diagonal(facts.grid),
-                     (facts.far_depth - facts.near_depth) * facts.max_length_per_depth);
-        const OpticsChanges changes =
-            largest_changes(ends_of_pieces(transfer_function, shown), rounding, length);
-
         const double brightest = std::max(max_color, 1.0);
         const double counted = exact_segment_error * brightest;  // by segment_error
-        const auto error_of = [&](const OpticsChange& change) {
-            const double share =
-                std::min(1.0, -std::expm1(-change.extinction * length) + change.color);
-            return 255 * brightest * share;
-        };
-        const double steps = error_of(changes.steps);
-        const double all = error_of(changes.steps + changes.ramps);
+        const SurfaceError found = surface_error(scene, facts);
+        const double steps = 255 * brightest * found.steps, all = 255 * brightest * found.all;
         const auto fits = [&](double error) {
             return slice.found_error() + error <= scene.max_error;
         };
@@ -315,7 +226,8 @@ struct SlicePlanner {
             return;
         }
         slice.ramp_error = all;
-        if (steps > counted) slice.surface_error = fits(steps) ? steps : infinity;
+        if (steps > counted)
+            slice.surface_error = fits(steps) ? steps : std::numeric_limits<double>::infinity();
     }
 
     bool choose_single_color() {
