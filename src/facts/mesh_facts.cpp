@@ -182,6 +182,12 @@ std::int64_t covered_pixels(const TetMesh& mesh, std::span<const TetPair> pairs,
     return static_cast<std::int64_t>(sum);
 }
 
+// Tells whether something shows and its segments are integrated. `facts`: of the data.
+bool integrates_segments(const Scene& scene, const MeshFacts& facts) {
+    return scene.method == Method::project && facts.parts > 0 &&
+           !mixes_colors(scene.project.coloring);
+}
+
 }  // namespace
 
 MeshFacts measure(const Scene& scene, const SceneMesh& mesh) {
@@ -211,6 +217,7 @@ MeshFacts measure_data(const Scene& scene, const SceneMesh& mesh) {
     const TetPieces pieces(*scene.transfer_function,
                            drawn_range(*scene.transfer_function, facts.range));
     measure_transfer_function(scene, mesh, pieces, facts);
+    if (!integrates_segments(scene, facts)) return facts;
     auto tets = tets_with_surfaces(scene, mesh, facts);
     if (!tets.empty())
         facts.surface_tets = std::make_shared<const std::vector<std::int32_t>>(std::move(tets));
@@ -242,16 +249,13 @@ void measure_view(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
         });
     facts.overlap.covered_pixels =
         facts.overlap.pairs ? covered_pixels(mesh.mesh, *facts.overlap.pairs, view) : 0;
-    const bool integrated =
-        scene.method == Method::project && facts.parts > 0 && !mixes_colors(scene.project.coloring);
-    facts.surface_error = integrated ? surface_ray_error(scene, mesh, facts) : 0;
+    facts.surface_error =
+        integrates_segments(scene, facts) ? surface_ray_error(scene, mesh, facts) : 0;
 }
 
 void measure_rays(const Scene& scene, const SceneMesh& mesh, MeshFacts& facts) {
     facts.trial_rays.clear();
-    const bool integrated =
-        scene.method == Method::project && facts.parts > 0 && !mixes_colors(scene.project.coloring);
-    if (!integrated) return;
+    if (!integrates_segments(scene, facts)) return;
     const TetPieces pieces(*scene.transfer_function,
                            drawn_range(*scene.transfer_function, facts.range));
     const View view(*scene.camera, scene.width, scene.height);
