@@ -3,8 +3,8 @@
 // scalar is a cubic of t = 0 .. 1. An interval lies between two neighbouring points of the transfer
 // function (knots). A part that stays in one interval and is shallow is integrated by one rule.
 // Other parts are cut where the scalar turns or crosses a knot (find_next_piece), and pieces that
-// are still too deep are shortened. add_whole_part() and add_cut_part() have two forms, without
-// light here and with light in slicing/lit_cell.glsl.
+// are still too deep are shortened. CellPart, add_cut_part() and add_part_in_interval() have two
+// forms, without light here and with light in slicing/lit_cell.glsl.
 #include "optics/cell_optics.glsl"
 #include "slicing/ray_sum.glsl"
 
@@ -149,6 +149,13 @@ void add_cut_part(CellPart cell, inout RaySum sum) {
     while (place.t < 1.0 && !is_opaque(sum)) add_piece(cell, turns, place, sum);
 }
 
+// Adds a part in one interval.
+bool add_part_in_interval(Interval interval, LinearPart part, CellPart cell, inout RaySum sum) {
+    add_linear_part(interval, part, cell.depth, sum);
+    return true;
+}
+#endif
+
 // Adds a part by one rule if possible. Returns false if it must be cut.
 bool add_whole_part(inout CellPart cell, inout RaySum sum) {
     vec2 range = scalar_range(cell.scalar);
@@ -164,7 +171,5 @@ bool add_whole_part(inout CellPart cell, inout RaySum sum) {
 #ifndef SINGLE_COLOR
     hard = hard || cell.depth > largest_part_depth;
 #endif
-    if (!hard) add_linear_part(interval, part, cell.depth, sum);
-    return !hard;
+    return !hard && add_part_in_interval(interval, part, cell, sum);
 }
-#endif

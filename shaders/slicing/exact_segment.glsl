@@ -81,6 +81,7 @@ void integrate_cells(Ray ray, REAL2 depths, inout RaySum sum) {
             part.place = at.place;
             part.change = change;
             part.transmittance = before.y * behind.transmittance;
+            part.longest_piece = 1.0;
 #endif
             hard = !add_whole_part(part, behind);
             bvec3 leaves = lessThanEqual(to_faces, vec3(way));

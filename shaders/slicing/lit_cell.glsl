@@ -12,7 +12,7 @@ struct CellPart {
     vec3 to_eye;          // direction along the grid's axes
     float transmittance;  // of what is in front, without crossings since the last part that was hard
     float depth;          // set by add_whole_part(): the optical depth if it lies in one interval, else 0
-    float longest_piece;  // set by it, too: length of the first piece if it is cut, as a share of the part
+    float longest_piece;  // of the first piece if it is cut, as a share of it: 1, or less if its light bends
 };
 
 // Lengths of the pieces of a part, as shares of it. `longest` doubles after two pieces of full
@@ -64,39 +64,25 @@ void add_cut_part(CellPart cell, inout RaySum sum) {
     while (place.t < 1.0 && !is_opaque(sum)) add_lit_piece(cell, turns, gradient, pieces, place, sum);
 }
 
-// Adds light to a part in one interval, and then the part to the sum if it needs no cut.
-bool add_lit_part(Interval interval, LinearPart part, inout CellPart cell, inout RaySum sum) {
-    CellGradient gradient = cell_gradient(cell.cell, cell.place, cell.change);
-    float opacity = opacity_from_depth(cell.depth);
-    vec3 color = color_of(interval, part, cell.depth, opacity);
-    float bend = add_light(gradient, cell.to_eye, interval, part, 0.0, 1.0, cell.depth, opacity, color);
-    if (bends(bend, cell.transmittance * opacity)) {
-        cell.longest_piece = longest_piece(bend);
-        return false;
-    }
-    sum.depth += cell.depth;
-    composite(color, opacity, sum);
-    return true;
-}
-
-// Adds a part by one rule if possible. Returns false if it must be cut.
-bool add_whole_part(inout CellPart cell, inout RaySum sum) {
-    vec2 range = scalar_range(cell.scalar);
-    int lowest = find_interval(range.x);
-#ifdef SKIPS_HIDDEN_PARTS
-    if (is_hidden(lowest, range)) return true;
-#endif
-    Interval interval = interval_at(lowest);
-    LinearPart part = linear_part(interval, cell.scalar.cubic, cell.world_length);
-    bool crosses = range.y > interval.right_end;
-    cell.depth = crosses ? 0.0 : depth_of(part);
-    cell.longest_piece = 1.0;
-    bool hard = crosses && range.y > interval.shown_beyond || cell.depth > largest_part_depth;
-    bool shown = !hard && cell.depth > 0.0;
+// Adds light to a part in one interval, and then the part to the sum. Returns false, and adds
+// nothing, if the part must be cut because its light bends too much.
+bool add_part_in_interval(Interval interval, LinearPart part, inout CellPart cell, inout RaySum sum) {
+    bool added = true;
+    bool shown = cell.depth > 0.0;
     // This is a loop and not an if, because software rasterisers compute both sides of branches.
     while (shown) {
         shown = false;
-        hard = !add_lit_part(interval, part, cell, sum);
+        CellGradient gradient = cell_gradient(cell.cell, cell.place, cell.change);
+        float opacity = opacity_from_depth(cell.depth);
+        vec3 color = color_of(interval, part, cell.depth, opacity);
+        float bend = add_light(gradient, cell.to_eye, interval, part, 0.0, 1.0, cell.depth, opacity, color);
+        added = !bends(bend, cell.transmittance * opacity);
+        if (added) {
+            sum.depth += cell.depth;
+            composite(color, opacity, sum);
+        } else {
+            cell.longest_piece = longest_piece(bend);
+        }
     }
-    return !hard;
+    return added;
 }
