@@ -116,9 +116,8 @@ Images chosen_series(const Path& path, const VolumeRequest& request, VolumeConte
     const auto largest = std::ranges::max_element(
         all, {}, [](const auto& entry) { return slices_in(entry.second); });
     if (all.size() > 1) {
-        say("{}: of the series {} the largest, {}, is drawn: \"array\" in the volume "
-            "names another (--set volume.array=NAME)",
-            path.string(), fmt::join(list, ", "), described(largest->second));
+        say("{}: of the series {} the largest, {}, is drawn: {}", path.string(),
+            fmt::join(list, ", "), described(largest->second), names_another("array", "NAME"));
     }
     return std::move(largest->second);
 }

@@ -258,9 +258,8 @@ class VtkHdfReader {
         }
         if (files_.has(scalars) && !scalars.empty()) return scalars;
         if (contents.arrays.size() > 1) {
-            say("{}: array {} of {} is taken: \"array\" in the volume names another (--set "
-                "volume.array=NAME)",
-                files_.name(), one_line(contents.arrays[0]), contents.arrays.size());
+            say("{}: array {} of {} is taken: {}", files_.name(), one_line(contents.arrays[0]),
+                contents.arrays.size(), names_another("array", "NAME"));
         }
         return contents.arrays[0];
     }
@@ -356,9 +355,8 @@ std::string signal_of(const Hdf5Files& files, const std::vector<std::string>& ar
             signals.push_back(array);
     }
     if (signals.size() != 1) return {};
-    say("{}: array {} of {} is taken, the signal of its group (NeXus): \"array\" in "
-        "the volume names another",
-        files.name(), one_line(signals[0]), arrays.size());
+    say("{}: array {} of {} is taken, the signal of its group (NeXus): {}", files.name(),
+        one_line(signals[0]), arrays.size(), names_another("array", "NAME"));
     return signals[0];
 }
 

@@ -189,9 +189,8 @@ class Npz {
                 "two",
                 path_.string());
         if (all.size() > 1)
-            say("{}: array \"{}\" of \"{}\" is taken: \"array\" in the volume names "
-                "another (--set volume.array=NAME)",
-                path_.string(), found[0], fmt::join(all, "\", \""));
+            say("{}: array \"{}\" of \"{}\" is taken: {}", path_.string(), found[0],
+                fmt::join(all, "\", \""), names_another("array", "NAME"));
         return found[0];
     }
 

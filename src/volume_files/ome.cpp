@@ -99,9 +99,8 @@ class OmeReader {
                  fmt::join(found_.images, "\", \""));
         }
         if (wanted.empty() && found_.images.size() > 1) {
-            say("{}: image \"{}\" of {} is taken: \"array\" in the volume names another (--set "
-                "volume.array=NAME)",
-                file_, ome_text(chosen, "Name"), found_.images.size());
+            say("{}: image \"{}\" of {} is taken: {}", file_, ome_text(chosen, "Name"),
+                found_.images.size(), names_another("array", "NAME"));
         }
         return chosen;
     }

@@ -310,19 +310,22 @@ StoredAxis unnamed_axis(const std::string& file, const std::optional<std::int64_
     return axis;
 }
 
+std::string names_another(std::string_view key, std::string_view value) {
+    return fmt::format("\"{0}\" in the volume names another (--set volume.{0}={1})", key, value);
+}
+
 void say_taken(const std::string& file, Axes axes) {
     for (const StoredAxis& axis : axes) {
         if (!axis.taken || axis.given || axis.size == 1) continue;
         if (axis.unnamed) {
             const bool channels = std::string_view(axis.what) == "channel";
             say("{}: the axis of {} has no name and is taken for {}s, of which 0 is "
-                "shown: \"{}\" in the volume names another (--set volume.{}=1), \"{}\" takes "
-                "the axis for {}s",
-                file, axis.size, axis.what, axis.what, axis.what, channels ? "time" : "channel",
-                channels ? "time" : "channel");
+                "shown: {}, \"{}\" takes the axis for {}s",
+                file, axis.size, axis.what, names_another(axis.what, "1"),
+                channels ? "time" : "channel", channels ? "time" : "channel");
         } else {
-            say("{}: {} 0 of {} is taken: \"{}\" in the volume names another (--set volume.{}=1)",
-                file, axis.what, axis.size, axis.what, axis.what);
+            say("{}: {} 0 of {} is taken: {}", file, axis.what, axis.size,
+                names_another(axis.what, "1"));
         }
     }
 }

@@ -38,6 +38,10 @@ StoredAxis taken_axis(const std::string& file, const char* what,
 StoredAxis unnamed_axis(const std::string& file, const std::optional<std::int64_t>& channel,
                         const std::optional<std::int64_t>& time, std::int64_t count);
 
+// Returns the end of a message on a part of a file that is taken: "array" in the volume names
+// another, and how the command line says that. `value`: an example of a name.
+std::string names_another(std::string_view key, std::string_view value);
+
 // Warns of each axis of which index 0 is taken only because the request names none, and of
 // each that the file does not name.
 void say_taken(const std::string& file, std::span<const StoredAxis> axes);

@@ -149,9 +149,8 @@ class VtkImage {
         if (found == offered.end()) found = offered.begin();
         array_ = **found;
         if (request_.array.empty() && offered.size() > 1) {
-            say("{}: array \"{}\" of {} is taken: \"array\" in the volume names another (--set "
-                "volume.array=NAME)",
-                head_.file, one_line(array_.name), offered.size());
+            say("{}: array \"{}\" of {} is taken: {}", head_.file, one_line(array_.name),
+                offered.size(), names_another("array", "NAME"));
         }
         if (use_.contents == nullptr) return;
         for (const VtkImageArray* one : offered) use_.contents->arrays.push_back(one->name);
