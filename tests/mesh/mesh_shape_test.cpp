@@ -84,7 +84,7 @@ TEST(MeshShape, SurfacesThatWindTwiceAreNotConvex) {
         EXPECT_EQ(star.findings().folded_faces, 0);
         EXPECT_EQ(convexity(star), Convexity::none);
         EXPECT_FALSE(find_overlaps(star, 100).pairs.empty());
-        // The same around another axis.
+        // Turning a star to another axis does not make it convex.
         MeshData turned = bipyramid(n, around);
         for (glm::dvec3& point : turned.points) point = {point.z, -point.y, point.x};
         EXPECT_EQ(convexity_of(turned), Convexity::none);

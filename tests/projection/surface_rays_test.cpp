@@ -34,7 +34,7 @@ Scene along_z(double x, const TransferFunction& transfer_function) {
     return scene;
 }
 
-// The same rows from an eye at x = `x`.
+// An eye at the given x sees the rows of along_z() in perspective.
 Scene from_eye(double x, const TransferFunction& transfer_function) {
     Scene scene = along_z(x, transfer_function);
     scene.camera->projection = Projection::perspective;
@@ -221,7 +221,7 @@ TEST_P(SurfaceRayPictures, ClaimNoErrorAlongTheBoundaryOfAMesh) {
     EXPECT_EQ(plan.project.error_of_others.kind, ErrorKind::sampled);
     EXPECT_THAT(explain(plan, measure(scene, mesh), capabilities()),
                 testing::HasSubstr("unknown of rays that run along the mesh's boundary"));
-    // The same picture from beside these planes.
+    // Moved aside, the eye is in none of these planes.
     scene.camera->eye += glm::dvec3(.011, .027, 0);
     scene.camera->center += glm::dvec3(.011, .027, 0);
     const ErrorFigure claimed = plan_of(mesh, scene, capabilities()).error();
